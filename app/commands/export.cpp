@@ -2,9 +2,9 @@
 
 #include <memory>
 
+#include "app/atomic_file.hpp"
 #include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
-#include "app/late_file.hpp"
 #include "app/option_values.hpp"
 #include "app/standard_streams.hpp"
 #include "export/c_header.hpp"
@@ -137,7 +137,7 @@ ExitCode run(const ExportOptions& own) {
   const ResultsReader results(own.results, own.max_memory);
   const Exporter wanted = exporter(own, results);
   ThreadTeam team(own.threads_for("exporting needs", wanted.demand));
-  std::optional<LateFile> file;
+  std::optional<AtomicFile> file;
   if (own.output) file.emplace(*own.output, "the export");
   Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });
   wanted.write([&blocks](std::string_view text) { blocks.add(text); }, team);

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "app/atomic_file.hpp"
 #include "app/commands/all.hpp"
 #include "app/file_beside_program.hpp"
-#include "app/late_file.hpp"
 #include "app/print_answer.hpp"
 #include "app/render.hpp"
 #include "app/standard_streams.hpp"
@@ -119,7 +119,7 @@ std::string spec_text(const std::string& file) {
 void write_new(const std::string& path, const std::string& text) {
   if (std::filesystem::exists(std::filesystem::symlink_status(path)))
     throw UsageError("the file is there already, expected the name of a new one", path);
-  LateFile file(path, "the spec");
+  AtomicFile file(path, "the spec");
   file.write(text);
   file.commit();
 }

@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "app/answers/all.hpp"
+#include "app/atomic_file.hpp"
 #include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
 #include "app/json_text.hpp"
-#include "app/late_file.hpp"
 #include "app/option_values.hpp"
 #include "app/print_answer.hpp"
 #include "app/report_html.hpp"
@@ -83,7 +83,7 @@ ExitCode run(const ReportOptions& own) {
   static_cast<void>(own.threads_for("a report needs", {.once = report_bytes(results)}));
   const std::string path = own.output.value_or(results.spec().name + ".html");
   check_output(own.results, path, "the report");
-  LateFile file(path, "the report");
+  AtomicFile file(path, "the report");
   ReportData data;
   const std::string page = page_of(results, data);
   file.write(page);

@@ -68,7 +68,7 @@ Json report_json(const SpecReport& report, const ProblemSpec& spec) {
 Json ranks_json(int ranks, const FullestRank& fullest) {
   return {{"ranks", ranks},
           {"rows", fullest.own_rows},
-          {"halo_rows", fullest.halo_rows},
+          {"halo_rows", fullest.ghost_rows},
           {"memory_bytes", fullest.memory_bytes}};
 }
 

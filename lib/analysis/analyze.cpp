@@ -52,9 +52,9 @@ void check_rank_memory(const Ground& ground, const RankMemory& memory, int threa
   for (const RowShare::Range run : ground.share->held()) held += run.end - run.begin;
   const auto rows = static_cast<double>(ground.abstraction->grid.rows());
   const RowShare::Range own = ground.share->own();
-  const RowPart part{.held = static_cast<double>(held) / rows,
-                     .own = static_cast<double>(own.end - own.begin) / rows,
-                     .slices = bytes_of_slices(*ground.engine)};
+  const RowFractions part{.held = static_cast<double>(held) / rows,
+                          .own = static_cast<double>(own.end - own.begin) / rows,
+                          .slices = bytes_of_slices(*ground.engine)};
   const double needed = estimate_memory_of_rank(ground.model, threads, memory.before, part);
   const std::int64_t most = ground.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));
   check_memory_limit(ground.spec, static_cast<double>(most), static_cast<double>(*memory.limit),

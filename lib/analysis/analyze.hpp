@@ -93,7 +93,7 @@ struct SpecReport {
 /// What the fullest of several processes would have.
 struct FullestRank {
   std::int64_t own_rows = 0;
-  std::int64_t halo_rows = 0;
+  std::int64_t ghost_rows = 0;
   std::uint64_t memory_bytes = 0;
 };
 

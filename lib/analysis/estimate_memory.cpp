@@ -18,7 +18,7 @@ double estimate_memory(const Model& model, int threads) {
                   estimate_memory_of_rank(model, threads, memory_of_program(), {}));
 }
 
-double estimate_memory_of_rank(const Model& model, int threads, double before, const RowPart& part) {
+double estimate_memory_of_rank(const Model& model, int threads, double before, const RowFractions& part) {
   const int team = all_threads(threads);
   const EngineSizes sizes(model, part);
   double held = before + memory_of_threads(team);

@@ -21,7 +21,7 @@ namespace coordreq {
 /// The same of one of several processes that share the work.
 /// @param before what it holds before any of it, as memory_of_program() tells
 [[nodiscard]] double estimate_memory_of_rank(const Model& model, int threads, double before,
-                                             const RowPart& part);
+                                             const RowFractions& part);
 /// What an MPI takes, measured with Open MPI 4.1, in bytes.
 inline constexpr double kMpiBytes = 11.0 * 1024 * 1024;
 /// What stands in the buffers of a checkpoint: a part of a list, and what the library keeps of its chunks.

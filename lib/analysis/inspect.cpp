@@ -92,7 +92,7 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
                           ThreadTeam& team) {
   const ProblemSpec& spec = model.spec();
   const double before = memory_of_program() + kMpiBytes;
-  const auto need = [&](const RowPart& part) {
+  const auto need = [&](const RowFractions& part) {
     return estimate_memory_of_rank(model, threads, before, part);
   };
   const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {
@@ -107,12 +107,12 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
   FullestRank fullest;
   double most = 0;
   for (const RankRows& rows : rows_of_ranks(answers.ground, ranks)) {
-    const double needed = need({.held = static_cast<double>(rows.own + rows.halo) / all,
+    const double needed = need({.held = static_cast<double>(rows.own + rows.ghosts) / all,
                                 .own = static_cast<double>(rows.own) / all,
                                 .slices = rows.slices});
     if (needed <= most) continue;
     most = needed;
-    fullest = {.own_rows = rows.own, .halo_rows = rows.halo};
+    fullest = {.own_rows = rows.own, .ghost_rows = rows.ghosts};
   }
   check(most, limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
   fullest.memory_bytes = to_bytes(most);

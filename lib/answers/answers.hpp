@@ -10,9 +10,10 @@
 
 namespace coordreq {
 
-/// All that has been found of one problem: the ground, and the values of answers, each of a type of its own.
+/// The results of the analysis of one problem: the ground, and the values of answers, each of a type of its
+/// own.
 ///
-/// Values stay where they are once they have been added, and may refer to one another.
+/// Values keep their addresses once they have been added, and may refer to one another.
 class Answers {
  public:
   /// @param ranks the processes that share the work; null: there is one
@@ -30,13 +31,13 @@ class Answers {
     values_.emplace(typeid(Value), std::move(owned));
     return result;
   }
-  /// Null if it has not been found, or was not asked for.
+  /// Null if the value has not been found, or was not asked for.
   template <class Value>
   [[nodiscard]] const Value* find() const {
     const auto found = values_.find(typeid(Value));
     return found == values_.end() ? nullptr : static_cast<const Value*>(found->second.get());
   }
-  /// @pre it is there
+  /// @pre there is a value of this type
   template <class Value>
   [[nodiscard]] const Value& get() const {
     REQUIRES(find<Value>() != nullptr);

@@ -32,7 +32,7 @@ FillArray fill_collision(const LevelMap& map, const CellOrder& order) {
   };
 }
 
-/// Delays less `connection_delay`, as trigger_of() has it; delays themselves if that is negative.
+/// Triggers, by trigger_of(); delays if `connection_delay` is negative.
 template <class Integer>
 FillArray fill_delays(const DelayLayers& layers, const LevelMap& collision_time,
                       std::int64_t connection_delay, const CellOrder& order) {
@@ -92,21 +92,21 @@ FillArray cells_by_list(const CellLists& lists, std::vector<std::uint64_t> next,
 
 template <class Index>
 ResultArray cells_of(ElementType type, const DelayLayers& layers, const CellOrder& order,
-                     const std::shared_ptr<LatestCells>& latest) {
+                     const std::shared_ptr<CellsCache>& cache) {
   const auto lists = std::make_shared<CellLists>(
       CellLists{.count = layers.sizes.size(), .of_cell = fill_layers(layers, order)});
   const auto cells = static_cast<std::uint64_t>(order.cells());
   return {.type = type,
           .fill =
-              [&layers, latest, lists, cells](std::uint64_t begin, std::uint64_t count, void* out) {
-                const auto fill = latest->get(
+              [&layers, cache, lists, cells](std::uint64_t begin, std::uint64_t count, void* out) {
+                const auto fill = cache->get(
                     &layers, [&] { return cells_by_list<Index>(*lists, layer_starts(layers), cells); });
                 (*fill)(begin, count, out);
               },
           .lists = lists};
 }
 
-/// A stretch of one set.
+/// Fills a stretch of one set.
 void fill_members(const CellSet& set, const CellOrder& order, std::uint64_t begin, std::uint64_t count,
                   std::uint8_t* out) {
   order.for_each_run(
@@ -211,11 +211,11 @@ std::vector<std::uint64_t> layer_starts(const DelayLayers& layers) {
 }
 
 ResultArray layer_cells(const DelayLayers& layers, const CellOrder& order,
-                        const std::shared_ptr<LatestCells>& latest) {
+                        const std::shared_ptr<CellsCache>& cache) {
   if (order.cells() <= std::numeric_limits<std::uint32_t>::max()) {
-    return cells_of<std::uint32_t>(ElementType::uint32, layers, order, latest);
+    return cells_of<std::uint32_t>(ElementType::uint32, layers, order, cache);
   }
-  return cells_of<std::uint64_t>(ElementType::uint64, layers, order, latest);
+  return cells_of<std::uint64_t>(ElementType::uint64, layers, order, cache);
 }
 
 }  // namespace coordreq

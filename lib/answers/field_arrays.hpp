@@ -6,16 +6,16 @@
 
 #include "answers/convention/convention_freedom.hpp"
 #include "answers/field.hpp"
-#include "answers/latest.hpp"
+#include "answers/last_value_cache.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "engine/level_map.hpp"
 #include "model/cell_order.hpp"
 
-// Turns what the analysis holds into the arrays of the results file. The functions returned refer to their
-// arguments, which must outlive the writing.
+// Turns results of the analysis into arrays of the results file. The arrays refer to the arguments, which
+// must outlive the writing.
 namespace coordreq {
 
-/// uint8 [cells], 1 for members of S: cells that have a level at all.
+/// uint8 [cells], 1 for members of S: cells of a level above 0.
 [[nodiscard]] ResultArray safe_array(const LevelMap& collision_time, const CellOrder& order);
 /// uint8 [cells], 1 for members of K: cells that are never lost.
 [[nodiscard]] ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order);
@@ -46,11 +46,11 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
 [[nodiscard]] ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order);
 
 /// The layers T(0), ..., T(F) of one partition as ascending lists of linear indices, one after the other
-/// (contract `/layers/PARTITION`): where each begins, F + 2 entries; then the lists, uint32 or uint64, of
-/// which there are never those of more than one partition.
+/// (contract `/layers/PARTITION`): where each list begins, F + 2 entries; and the lists, uint32 or uint64.
+/// Those of one partition at a time are in memory (LastValueCache).
 [[nodiscard]] std::vector<std::uint64_t> layer_starts(const DelayLayers& layers);
-using LatestCells = Latest<const DelayLayers*, FillArray>;
+using CellsCache = LastValueCache<const DelayLayers*, FillArray>;
 [[nodiscard]] ResultArray layer_cells(const DelayLayers& layers, const CellOrder& order,
-                                      const std::shared_ptr<LatestCells>& latest);
+                                      const std::shared_ptr<CellsCache>& cache);
 
 }  // namespace coordreq

@@ -6,25 +6,25 @@
 #include "answers/field.hpp"
 #include "spec/spec_types.hpp"
 
-// What declarations of fields are put together from.
+// Parts from which declarations of fields are made.
 namespace coordreq {
 
-/// `long_name` and `units` of a plain number: a count of steps must not look like a time, or xarray would
-/// make it one.
+/// `long_name` and `units` of a plain number: steps must not have a unit that looks like time, or xarray
+/// would take them for a time.
 [[nodiscard]] std::vector<FieldAttribute> described(std::string long_name);
 [[nodiscard]] FieldAttribute flags(std::vector<FieldFlag> values);
-/// The attribute `cells`: how many of them there are.
+/// The attribute `cells`: the number of cells.
 [[nodiscard]] FieldAttribute counted_cells();
-/// The same as a list, one for each of so many; nothing if an attribute would not take them.
+/// The same as a list of `count` numbers; nothing if an attribute would be too large.
 [[nodiscard]] std::vector<FieldAttribute> counted_cells(std::size_t count);
 /// One list of attributes behind the other.
 [[nodiscard]] std::vector<FieldAttribute> operator+(std::vector<FieldAttribute> first,
                                                     std::vector<FieldAttribute> second);
 
-/// An axis that names things. @param long_name of what it names
+/// An axis with names. @param long_name of the things named
 [[nodiscard]] Field name_scale(std::string path, FieldSection section, std::vector<std::string> names,
                                const std::string& long_name);
-/// The numbers first, first + 1, ...; the spec tells the least and the greatest length.
+/// The numbers first, first + 1, ...; least and most are the lengths that the spec allows.
 [[nodiscard]] Field number_scale(std::string path, FieldSection section, std::uint64_t least,
                                  std::uint64_t most, const std::string& long_name, std::int32_t first = 0);
 /// An axis without coordinates.
@@ -36,8 +36,8 @@ namespace coordreq {
 [[nodiscard]] std::vector<std::string> cell_axes(const std::string& leading, const SystemSpec& spec);
 [[nodiscard]] std::uint64_t cell_count(const SystemSpec& spec);
 
-/// Sets of joint actions over cells, a bit each, with their axis of bytes beside them, under their path and
-/// ":byte", which no agent and no state can be called.
+/// Sets of joint actions over cells, a bit each, and their axis of bytes, under the path with ":byte", which
+/// no agent and no state can be called.
 /// @param inputs indices of the inputs that the actions range over, in the order of the spec
 void add_bits(Fields& fields, const std::string& path, FieldSection section, const SystemSpec& spec,
               const std::vector<std::int32_t>& inputs, const std::string& long_name);

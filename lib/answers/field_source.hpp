@@ -6,17 +6,17 @@
 
 namespace coordreq {
 
-/// What is said in small fields, whose shapes are as declared: by a results file, or by what was read of one.
+/// A source of small fields, whose shapes are as declared: a results file, or claims that were read from one.
 class FieldSource {
  public:
   virtual ~FieldSource() = default;
-  /// Whether an optional scale is there.
+  /// Whether the source has an optional scale.
   [[nodiscard]] virtual bool has(const std::string& path) const = 0;
   [[nodiscard]] virtual std::vector<std::int64_t> integers(const std::string& path) const = 0;
   [[nodiscard]] virtual std::vector<double> numbers(const std::string& path) const = 0;
-  /// Numbers that are not negative, whatever they are: they are not compared with the field's least and most.
+  /// Numbers that are not negative; not compared with the field's least and most.
   [[nodiscard]] virtual std::vector<std::uint64_t> list(const std::string& path) const = 0;
-  /// The attribute `cells`; empty if there is none, of the field or of the path.
+  /// The attribute `cells`; empty if there is no field or no attribute.
   [[nodiscard]] virtual std::vector<std::uint64_t> counted(const std::string& path) const = 0;
   /// An attribute of a field: an integer, or a floating point number.
   [[nodiscard]] virtual std::int64_t attribute(const std::string& path, const std::string& name) const = 0;

@@ -18,7 +18,7 @@ Fields answer_fields(const ProblemSpec& spec) {
 }
 
 Fields result_fields(const ProblemSpec& spec) {
-  // In a section those of later answers come first: files have always been written so.
+  // Within a section fields of later answers come first: files have always been written so.
   Fields table;
   const std::vector<Answer>& answers = all_answers();
   for (auto answer = answers.rbegin(); answer != answers.rend(); ++answer) {

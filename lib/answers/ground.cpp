@@ -13,12 +13,13 @@
 namespace coordreq {
 namespace {
 
-/// Of like agents the most that change places within the classes, or with whole classes; ascending.
-std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
+/// The largest set of like agents that can be exchanged within classes, or by exchanging whole classes;
+/// ascending.
+std::vector<std::size_t> alike_in_classes(const std::vector<AbstractAgent>& agents,
                                           const std::vector<InputClass>& classes) {
   std::set<std::vector<std::int32_t>> all;
   for (const InputClass& own : classes) all.insert(own.inputs());
-  const auto are_alike = [&](const AgentPart& a, const AgentPart& b) {
+  const auto are_alike = [&](const AbstractAgent& a, const AbstractAgent& b) {
     return std::ranges::all_of(all, [&](std::vector<std::int32_t> inputs) {
       for (std::int32_t& input : inputs) input = exchanged(a.inputs, b.inputs, input);
       std::ranges::sort(inputs);
@@ -36,7 +37,8 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
   return most;
 }
 
-/// What S is, in two ways of asking, and what of it counts as T, in rows held.
+/// The sets that a symmetry must keep: S, the cells of it that count as T, and S for tubes beyond limits, in
+/// rows held.
 std::vector<const CellSet*> safe_sets(const Ground& ground) {
   std::vector<const CellSet*> sets{&ground.safe};
   if (ground.over) sets.push_back(&*ground.over);
@@ -44,16 +46,16 @@ std::vector<const CellSet*> safe_sets(const Ground& ground) {
   return sets;
 }
 
-/// Agents that can change places.
-std::vector<AgentPart> find_agents_alike(const Ground& ground) {
+/// Agents that can be exchanged.
+std::vector<AbstractAgent> find_agents_alike(const Ground& ground) {
   std::vector<std::vector<std::int32_t>> inputs;
   for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
     inputs.push_back(own.inputs());
-  const std::vector<AgentPart> parts = parts_of_agents(*ground.abstraction, inputs);
-  return find_like_agents(*ground.abstraction, parts, safe_sets(ground));
+  const std::vector<AbstractAgent> all = abstract_agents(*ground.abstraction, inputs);
+  return find_like_agents(*ground.abstraction, all, safe_sets(ground));
 }
 
-/// Adds G, of a goal that ends the task, in some rows where S is known.
+/// Adds the cells of G, of a goal that ends the task, in some rows where S is known.
 void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground& ground) {
   const Abstraction& abstraction = *ground.abstraction;
   CellSet& over = *ground.over;
@@ -79,18 +81,18 @@ std::int64_t Ground::count(const CellSet& set) const {
   return sum_of_all(shared_rows(), set.count(own.begin, own.end));
 }
 
-std::optional<RowMirror> Ground::mirror(const std::vector<InputClass>& classes) const {
-  std::vector<std::vector<std::size_t>> blocks;
+std::optional<RowSymmetry> Ground::symmetry(const std::vector<InputClass>& classes) const {
+  std::vector<std::vector<std::size_t>> dimensions;
   for (const std::size_t a : alike_in_classes(like_agents, classes))
-    blocks.push_back(like_agents[a].dimensions);
-  if (blocks.size() < 2) return std::nullopt;
+    dimensions.push_back(like_agents[a].dimensions);
+  if (dimensions.size() < 2) return std::nullopt;
   // Tiles of many rows are worked out as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
   const bool is_any_in_tile =
       tiles && tiles->rows() > 1 &&
-      std::ranges::any_of(blocks, [&](const auto& block) { return std::ranges::any_of(block, is_in_tile); });
+      std::ranges::any_of(dimensions, [&](const auto& own) { return std::ranges::any_of(own, is_in_tile); });
   if (is_any_in_tile) return std::nullopt;
-  return RowMirror(abstraction->grid, blocks);
+  return RowSymmetry(abstraction->grid, dimensions);
 }
 
 void lay_ground(Ground& ground, ThreadTeam& team) {
@@ -106,7 +108,7 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
     if (limits) add_safe_beyond(*limits, ground.spec, abstraction, ground.safe, runs, team, *ground.beyond);
     if (ground.over) add_over(runs, team, ground);
   };
-  // The engine has to know that rows are cut; where they are may depend on it.
+  // The engine has to know now that rows are shared; how they are cut may depend on the engine.
   const bool is_cut = ground.share.has_value();
   if (ground.ranks == nullptr) {
     find_safe({{0, rows}});

@@ -21,19 +21,22 @@
 
 namespace coordreq {
 
-/// A controller that the user brings: the pairs that it lists.
+/// A controller file of the user: the pairs that it lists.
 struct ListedController {
-  std::string sha256;  ///< of its file
+  std::string sha256;  ///< of the file
   PackedPairs pairs;
 };
 
-/// What all answers to a problem stand on: its abstraction, S, and the engine that reads them.
+/// The data that all answers to a problem share: its abstraction, S, and the engine that reads them.
 ///
 /// 1. Rows, columns and dimensions are those of the grid of the abstraction, with the states in the order of
 ///    the model; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
-/// 2. Neither copied nor moved: its parts refer to one another. What stages make is there after them.
+/// 2. Neither copied nor moved: members refer to one another.
+/// 3. `abstraction` is there after the stage "abstraction" (`share` too, if rows are cut before there are
+///    tables), all members after it after "safe set".
+/// 4. Threads: any number may read once "safe set" is over; no member changes after that.
 struct Ground {
-  /// @param all the processes that share the work; null: there is one
+  /// @param all the processes that share the work; null: there is one process
   explicit Ground(const Model& problem, Ranks* all = nullptr)
       : model(problem), spec(problem.spec()), ranks(all) {}
   Ground(const Ground&) = delete;
@@ -42,30 +45,31 @@ struct Ground {
   const Model& model;
   const ProblemSpec& spec;
   Ranks* ranks;
-  std::optional<ListedController> listed;  ///< of `controller.file`; then the order is that of the spec
-  std::optional<Abstraction> abstraction;  ///< after "abstraction", as all that follows after "safe set"
-  /// Which rows are whose, if there are several processes; there with the abstraction if that is divided.
+  std::optional<ListedController> listed;  ///< if there is one; the model then has the order of the spec
+  std::optional<Abstraction> abstraction;
+  /// Which process owns which rows; nothing: there is one process.
   std::optional<RowShare> share;
   CellSet safe;                 ///< S, in the rows held
   std::int64_t safe_cells = 0;  ///< |S|
-  /// G of a goal that ends the task, a part of S: cells that count as T (contract, section 5). Nothing where
-  /// no goal does.
+  /// G of a goal that ends the task, a part of S: cells that count as T (contract, section 5). Nothing if no
+  /// goal ends the task.
   std::optional<CellSet> over;
   std::int64_t over_cells = 0;  ///< |G|, 0 if there is none
   PairRules pairs;
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
   std::optional<RowHull> hull;
-  std::optional<Tiles> tiles;      ///< where equal work is looked for, if there seems to be much of it
-  Tiles::Numbers tiles_with_over;  ///< [tile] equal numbers where the same cells count as T, too; if any do
-  /// That can change places, in S too; two or more, or none. Of several processes none: on three vehicles it
-  /// saved 7 % of the time of two, and 12 % of eight, which hold the rows of all orders for it.
-  std::vector<AgentPart> like_agents;
+  std::optional<Tiles> tiles;  ///< in which equal work is found; nothing where a sample has little of it
+  Tiles::Numbers
+      tiles_with_over;  ///< [tile] equal numbers where the same cells count as T, too; empty if none do
+  /// That can be exchanged, in S too; two or more, or none. Of several processes none: on three vehicles it
+  /// saved 7 % of the time of two processes and 12 % of eight, which then hold the rows of all orders.
+  std::vector<AbstractAgent> like_agents;
   std::optional<CellOrder> order;
 
-  /// What tubes must stay in, if there are any. @pre S is there
+  /// The sets that tubes must stay in, if there are tubes. @pre S is there
   [[nodiscard]] TubeSets tubes() const;
-  /// Which rows are whose, or null.
+  /// Which process owns which rows, or null.
   [[nodiscard]] const RowShare* shared_rows() const { return share ? &*share : nullptr; }
   /// The cells that count as T, or null.
   [[nodiscard]] const CellSet* over_or_null() const { return over ? &*over : nullptr; }
@@ -73,16 +77,16 @@ struct Ground {
   [[nodiscard]] std::int64_t count(const CellSet& set) const;
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
-  /// Work that is equal where S is, and G of a goal that ends the task; or none.
-  [[nodiscard]] EqualWork equal(const RowMirror* mirror = nullptr) const {
-    return {equal_work(), tiles && over ? &tiles_with_over : nullptr, mirror};
+  /// Equal work of an operator that depends on the tables, S, and G of a goal that ends the task.
+  [[nodiscard]] EqualWork equal(const RowSymmetry* symmetry = nullptr) const {
+    return {equal_work(), tiles && over ? &tiles_with_over : nullptr, symmetry};
   }
-  /// Where answers are the same but for the order of like agents, if the inputs of each class are chosen
-  /// together. Nothing if there is no such place.
-  [[nodiscard]] std::optional<RowMirror> mirror(const std::vector<InputClass>& classes) const;
+  /// The symmetry under which answers are the same, if the inputs of each class are chosen together; nothing
+  /// if there is none.
+  [[nodiscard]] std::optional<RowSymmetry> symmetry(const std::vector<InputClass>& classes) const;
 };
 
-/// S and the engine, on an abstraction that is there. Together.
+/// Finds S and makes the engine. @pre unchecked: the abstraction is there. Together.
 void lay_ground(Ground& ground, ThreadTeam& team);
 
 }  // namespace coordreq

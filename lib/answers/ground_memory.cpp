@@ -8,7 +8,7 @@
 namespace coordreq {
 namespace {
 
-/// Of a table written out: an entry for every choice of what the state depends on.
+/// Entries of a table written out: one for every choice of the states and inputs that the state depends on.
 double entries_in_full(const Model& model, const TableShape& shape) {
   double entries = 1;
   for (const std::int32_t j : shape.states) entries *= static_cast<double>(model.grid()[at(j)].count);
@@ -31,16 +31,16 @@ MemoryNeed ground_memory(const EngineSizes& sizes, int threads) {
   for (std::size_t t = 0; t < model.grid().size(); ++t) {
     slices += sizes.slices(t);
     need.kept += sizes.table(t) + sizes.slices(t);
-    // Tubes are as large, and cut into rows twice where states saturate.
+    // Tables of tubes are as large as those of posts, and are cut into rows twice where states saturate.
     if (spec.abstraction.between_samples) need.kept += sizes.table(t) + 2 * sizes.slices(t);
     if (!spec.output.abstraction) continue;
     const double entries = entries_in_full(model, model.arranged_shapes()[t]);
     need.array = std::max(need.array, entries * sizeof(std::int32_t));
     need.written = std::max(need.written, entries * sizeof(IndexRange));
   }
-  // What the allocator has set aside for a thread it does not give back.
+  // The allocator does not give back the memory that it has set aside for a thread.
   need.kept += (threads - 1) * kBytesOfPostThread;
-  // They are there before tables are cut into rows.
+  // Unsent entries are in memory before tables are cut into rows.
   const double tubes = spec.abstraction.between_samples ? 2 : 1;
   need.work = std::max(need.work, tubes * (sizes.untold_entries() - slices));
   if (spec.abstraction.between_samples) need.kept += 2 * sizes.levels() + sizes.set();

@@ -43,7 +43,7 @@ LevelMap load_levels(Archive& archive, const RowEngine& engine, const LevelBound
   return LevelMap(std::move(levels));
 }
 
-/// As serialise() does.
+/// Saves the rows of a step as serialise() does.
 void save_levels(Archive& archive, const RowShare* share, const NumberRows& state) {
   auto width = static_cast<std::uint8_t>(state.number_bytes);
   archive.number(width);

@@ -2,18 +2,18 @@
 
 #include "engine/engine_sizes.hpp"
 
-// What an analysis will hold in memory, told before any of it is there.
+// Estimates of the memory of an analysis, before it begins.
 namespace coordreq {
 
 /// Bytes that one answer needs.
 struct MemoryNeed {
   double kept = 0;     ///< from its stages to the end
-  double work = 0;     ///< more, at the most, while its stages are under way
-  double written = 0;  ///< more, while the results file is written
-  double array = 0;    ///< the longest dataset that it has there
+  double work = 0;     ///< the most in addition while its stages are under way
+  double written = 0;  ///< in addition while the results file is written
+  double array = 0;    ///< its longest dataset in the file
 };
 
-/// Of the ground, and of writing what is of no answer.
+/// The need of the ground, and of writing fields that belong to no answer.
 [[nodiscard]] MemoryNeed ground_memory(const EngineSizes& sizes, int threads);
 
 }  // namespace coordreq

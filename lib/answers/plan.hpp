@@ -20,53 +20,55 @@ namespace coordreq {
 class AnswerCheck;
 struct CheckGround;
 
-/// One thing that an analysis can answer, in a folder of its own: what it takes to find it, what to say of it
-/// and how to check that. Whoever works on answers goes over all_answers() and knows none by name.
+/// One answer of an analysis, in a folder of its own: how it is found, shown and checked. Code that works on
+/// answers goes over all_answers() and knows none by name.
 struct Answer {
-  /// What can be refused before any work is done, for the spec alone; null: nothing.
+  /// Stages that can refuse the spec before any work is done; null: none.
   std::vector<Stage> (*checks)(const ProblemSpec& spec) = nullptr;
-  /// In their order; none if the spec does not ask for it. They need the answers before.
+  /// Its stages, in order; none if the spec does not ask for the answer. They need the answers before it in
+  /// the plan.
   std::vector<Stage> (*stages)(const ProblemSpec& spec) = nullptr;
-  /// What that takes with so many threads, and writing it; nothing if the spec does not ask for it.
+  /// The memory that stages and writing take with `threads` threads; 0 if the spec does not ask for the
+  /// answer.
   MemoryNeed (*memory)(const EngineSizes& sizes, int threads) = nullptr;
-  /// Its datasets in the results file of a spec; none if the spec does not ask for it.
+  /// Its datasets in the results file of a spec; none if the spec does not ask for the answer.
   Fields (*fields)(const ProblemSpec& spec) = nullptr;
-  /// What was found for them.
+  /// Fills in the values of its datasets.
   void (*fill)(const Answers& answers, ThreadTeam& team, FieldValues& values) = nullptr;
-  /// Adds its keys to the JSON summary (contract, section 3), and what its fixed points took to `work`, by
-  /// stage. Called whether or not it was asked for.
+  /// Adds its keys to the JSON summary (contract, section 3), and the work of its fixed points to `work`, by
+  /// stage. Called whether or not the spec asks for the answer.
   void (*summarise)(const Answers& answers, Json& summary, Json& work) = nullptr;
-  /// Fails where small fields of a file do not fit together; null: they always do.
+  /// Fails if small fields of a file do not fit together; null: they always do.
   void (*examine)(const ProblemSpec& spec, const FieldSource& source) = nullptr;
-  /// Adds to what `info` says of a file: the same keys, as far as the file tells them. Called whether or not
-  /// it was asked for; null: nothing.
+  /// Adds its keys to the JSON of `info`: those of the summary, as far as the file has them. Called whether
+  /// or not the spec asks for the answer; null: none.
   void (*tell)(const ProblemSpec& spec, const FieldSource& source, Json& info) = nullptr;
-  /// What of it is no error and can mislead; null: nothing. Called whether or not it was asked for.
+  /// Its warnings; null: none. Called whether or not the spec asks for the answer.
   Warnings (*advise)(const Answers& answers) = nullptr;
-  /// What it leaves to agents at a cell and a countdown; null: it says nothing of that.
+  /// Its policies: the choices that it leaves to agents at a cell and a countdown; null: none.
   std::vector<AnswerPolicy> (*policies)(const ProblemSpec& spec) = nullptr;
-  /// What it adds to the explanation of a delay, whether or not it was asked for; null: nothing.
+  /// Its addition to the explanation of a delay, whether or not the spec asks for the answer; null: none.
   Explained (*explain)(const ExplainGround& ground) = nullptr;
-  /// What it says in a file, to be checked by its definition; null, or a null result: nothing is.
+  /// The check of its fields in a file, by its definition; null, or a null result: there is none.
   std::unique_ptr<AnswerCheck> (*check)(const CheckGround& ground) = nullptr;
-  /// Bytes that this keeps of each cell beside what the file says; null: none.
+  /// Bytes for each cell that the check keeps beside the values of the file; null: none.
   double (*check_memory)(const ProblemSpec& spec) = nullptr;
 };
 
-/// In the order of need; the first is the ground, on which all others stand.
+/// All answers, in the order of need; the first is the ground, which all others need.
 [[nodiscard]] const std::vector<Answer>& all_answers();
 
 /// The stages of all answers that the spec asks for, in order.
 [[nodiscard]] std::vector<Stage> answer_stages(const ProblemSpec& spec);
 
-/// The policies of all answers that the spec asks for, in order; the first is that of the delays.
+/// The policies of all answers that the spec asks for, in order; the first is the policy of the delays.
 [[nodiscard]] std::vector<AnswerPolicy> answer_policies(const ProblemSpec& spec);
 
-/// Where the work is told of and kept.
+/// Observers of stages, and stores for them.
 struct PlanWatch {
-  /// A stage begins; may be empty.
+  /// Called when a stage begins; may be empty.
   std::function<void(const std::string& stage)> enter = {};
-  /// Where this stage is kept, or null; may be empty.
+  /// Gives the store of a stage, or null; may be empty.
   std::function<StageStore*(const std::string& stage)> store = {};
 };
 

@@ -10,20 +10,20 @@
 namespace coordreq {
 namespace {
 
-/// Blocks of rows a rank between which it is cut: shares differ by a hundredth or so.
-constexpr std::int64_t kBlocksOfRank = 64;
-/// Rows of a block that are looked at.
-constexpr std::int64_t kLooksAtBlock = 8;
-/// Units a rank that are not cut: equal ones are found among whole ones only.
+/// Bins of rows for each rank; rows are cut between bins, so that shares differ by a hundredth or so.
+constexpr std::int64_t kBinsOfRank = 64;
+/// Rows of a bin that are looked at.
+constexpr std::int64_t kLooksAtBin = 8;
+/// If a rank has at least so many units, no unit is cut: equal units are found among whole ones alone.
 constexpr std::int64_t kUnitsOfRank = 8;
 
-std::int64_t block_rows_of(std::int64_t rows, std::int64_t unit, int parts) {
-  const std::int64_t most = kBlocksOfRank * parts;
-  const std::int64_t block = (rows + most - 1) / most;
-  return unit * kUnitsOfRank * parts <= rows ? (block + unit - 1) / unit * unit : block;
+std::int64_t bin_rows_of(std::int64_t rows, std::int64_t unit, int parts) {
+  const std::int64_t most = kBinsOfRank * parts;
+  const std::int64_t bin = (rows + most - 1) / most;
+  return unit * kUnitsOfRank * parts <= rows ? (bin + unit - 1) / unit * unit : bin;
 }
 
-/// Tells rows in which S has no cell, by intervals around the centres of a row; not all of them.
+/// Finds rows in which S has no cell, by intervals around the centres of a row; may miss some.
 class SafeRows {
  public:
   SafeRows(const ProblemSpec& spec, const UniformGrid& grid)
@@ -42,10 +42,11 @@ class SafeRows {
  private:
   const UniformGrid& grid_;
   Evaluator<Interval> safe_;
-  std::vector<Interval> box_;  ///< by slot
+  std::vector<Interval> box_;  ///< [slot]
 };
 
-/// The least unit that an engine may choose (RowEngine::outer()): units that are larger are made of these.
+/// Rows of the smallest unit that an engine may choose (RowEngine::outer()); larger units consist of such
+/// units.
 std::int64_t least_unit(const Model& model) {
   const UniformGrid& grid = model.grid();
   const std::vector<TableShape>& shapes = model.arranged_shapes();
@@ -58,14 +59,14 @@ std::int64_t least_unit(const Model& model) {
   return closed == 0 ? grid.rows() : grid.row_stride(closed - 1);
 }
 
-/// @param unit_rows rows that are not cut, if these are not too many
+/// @param unit_rows rows of a unit, which is not cut if there are enough units
 std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const UniformGrid& grid,
                                            std::int64_t unit_rows, int parts) {
-  const std::int64_t rows = grid.rows(), block = block_rows_of(rows, unit_rows, parts);
+  const std::int64_t rows = grid.rows(), bin = bin_rows_of(rows, unit_rows, parts);
   SafeRows safe_rows(spec, grid);
   std::vector<std::int64_t> weights;
-  for (std::int64_t begin = 0; begin < rows; begin += block) {
-    const std::int64_t own = std::min(block, rows - begin), looks = std::min(own, kLooksAtBlock);
+  for (std::int64_t begin = 0; begin < rows; begin += bin) {
+    const std::int64_t own = std::min(bin, rows - begin), looks = std::min(own, kLooksAtBin);
     std::int64_t safe = 0;
     for (std::int64_t look = 0; look < looks; ++look) {
       const std::int64_t row = (2 * look + 1) * own / (2 * looks) + begin;
@@ -73,7 +74,7 @@ std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const Unifor
     }
     weights.push_back(safe * own / looks);
   }
-  return cut_rows(weights, block, rows, parts);
+  return cut_rows(weights, bin, rows, parts);
 }
 
 }  // namespace

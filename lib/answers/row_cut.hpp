@@ -12,8 +12,9 @@ namespace coordreq {
 /// cut is known before them; and there rows run along the last dimension alone (join_rows()).
 [[nodiscard]] bool is_cut_before_tables(const Model& model);
 
-/// Cuts the rows into runs, one a process, with about as many in which S may have cells, as some rows of each
-/// block tell: the rows of model.grid() where is_cut_before_tables(), else those of the engine.
+/// Cuts the rows into runs, one for each process, with about as many rows each in which S may have cells,
+/// judged by a few rows of each bin: the rows of model.grid() where is_cut_before_tables(), else those of the
+/// engine.
 /// @param engine may be null where is_cut_before_tables()
 /// @returns parts + 1 ascending numbers, as cut_rows()
 [[nodiscard]] std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine,

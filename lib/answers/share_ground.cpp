@@ -16,8 +16,8 @@ void share_ground(Ground& ground, bool is_cut,
   RowShare& share = *ground.share;
   if (!is_cut) share = {*ground.ranks, cut_into_shares(ground.model, &*ground.engine, ground.ranks->count())};
   find_safe({share.own()});
-  share.set_halo(ground.hull->rows_met(&ground.safe, share.own()));
-  find_safe(halo_rows(share));
+  share.set_ghosts(ground.hull->rows_met(&ground.safe, share.own()));
+  find_safe(ghost_rows(share));
   ground.engine->take_tube_sets();
 }
 

@@ -7,7 +7,7 @@
 #include "answers/ground.hpp"
 #include "ranks/row_share.hpp"
 
-// The ground of several processes: whose rows are whose, and the halo that each holds of others.
+// The ground of several processes: whose rows are whose, and the ghost rows that each holds of others.
 namespace coordreq {
 
 /// Before the rows are cut.
@@ -19,13 +19,14 @@ namespace coordreq {
 void share_ground(Ground& ground, bool is_cut,
                   const std::function<void(const std::vector<RowShare::Range>&)>& find_safe);
 
-/// Rows that a process would own, and hold of others.
+/// Rows that a process would own, and ghost rows that it would hold.
 struct RankRows {
   std::int64_t own = 0;
-  std::int64_t halo = 0;
-  std::vector<double> slices = {};  ///< RowPart::slices
+  std::int64_t ghosts = 0;
+  std::vector<double> slices = {};  ///< RowFractions::slices
 };
-/// Of so many processes, on an abstraction that is there. Halos are those of all cells, of S or not.
+/// [rank] The rows of `ranks` processes. Ghost rows are counted for all cells, in S or not. @pre unchecked:
+/// the abstraction is there
 [[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks);
 
 }  // namespace coordreq

@@ -12,32 +12,33 @@ namespace coordreq {
 
 class Answers;
 
-/// Hands what there is to an archive, see Archive.
+/// Saves or loads a state by an archive, see Archive.
 using Serialise = std::function<void(Archive&)>;
 
-/// Where what the stage under way has found is kept, and taken up again later.
+/// The store of the stage under way: keeps its state, which is taken up again later.
 class StageStore {
  public:
   virtual ~StageStore() = default;
 
   enum class Kept : std::uint8_t { nothing, unfinished, finished };
-  /// Loads what is kept of this stage, if anything is.
-  /// @throws ResultsError if that is something else
+  /// Loads the kept state of this stage, if there is one.
+  /// @throws ResultsError if the kept state is not one of this stage
   [[nodiscard]] virtual Kept take(const Serialise& load) = 0;
-  /// The stage is over: from now on its result is kept. What `save` refers to must stay where it is.
+  /// The stage is over: from now on its result is kept. Objects to which `save` refers must keep their
+  /// addresses.
   virtual void finish(Serialise save) = 0;
-  /// The stage has come this far; kept if it is time.
+  /// The stage has reached this state, which is kept if it is time.
   virtual void step(const Serialise& save) = 0;
 };
 
-/// What a stage is worked out with.
+/// The threads, observers and store with which a stage works.
 struct StageWork {
   ThreadTeam& team;
-  /// Told that a part of the stage begins: "projections", or "" for the stage itself; may be empty.
+  /// Called when a part of the stage begins: "projections", or "" for the stage itself; may be empty.
   std::function<void(const std::string& part)> part = {};
-  /// Told of every step of a fixed point, and how many cells a row has; may be empty.
+  /// Called for every step of a fixed point, with the number of cells of a row; may be empty.
   std::function<void(const WaveStep& step, std::int64_t row_length)> step = {};
-  StageStore* store = nullptr;  ///< may be none
+  StageStore* store = nullptr;  ///< may be null
 
   void enter_part(const std::string& name) const {
     if (part) part(name);
@@ -47,7 +48,7 @@ struct StageWork {
 /// A piece of work with a name, by which progress, timings and checkpoints know it.
 struct Stage {
   std::string name;
-  /// Adds what it finds to what is known so far.
+  /// Adds its results to the answers so far.
   std::function<void(Answers& answers, const StageWork& work)> run;
 };
 

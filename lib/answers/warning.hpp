@@ -5,8 +5,8 @@
 
 namespace coordreq {
 
-/// What is no error and can mislead: a result that shows the grid rather than the system, a name that nothing
-/// uses. It never changes a result.
+/// A hint at something that is no error and can mislead: a result that shows the grid rather than the system,
+/// a name that is not used. It never changes a result.
 struct Warning {
   std::string kind;  ///< "grid", "unused", "units", "scale", "motion", "blocked", "between_samples", "empty",
                      ///< "no_silence", "goal", "memory", "sight" or "silence"

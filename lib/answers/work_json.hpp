@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// What a fixed point took, as in the summary's `work`.
+/// The work of a fixed point, as in the summary's `work`.
 [[nodiscard]] inline Json work_json(const WaveCounts& counts) {
   return {{"sweeps", counts.sweeps},
           {"rows_visited", counts.rows_visited},

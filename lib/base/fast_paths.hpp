@@ -25,7 +25,7 @@ struct FastPaths {
   bool joined_boxes = true;         ///< of a class, those that make up one box
   bool pair_projections = true;     ///< projections of two classes on bits
   bool choice_bounds = true;        ///< one box a cell for several choices of sums
-  bool recent_levels = true;        ///< of sums, levels that have changed since the last sweep alone
+  bool level_delta = true;          ///< of sums, levels that have changed since the last sweep alone
   bool last_values = true;          ///< what was made for one stretch of a field serves the next
   // Without these posts may be wider.
   bool sum_tables = true;        ///< a term for each state in which motion is affine
@@ -60,7 +60,7 @@ inline constexpr FastPath kFastPaths[] = {
     {"joined_boxes", &FastPaths::joined_boxes, true},
     {"pair_projections", &FastPaths::pair_projections, true},
     {"choice_bounds", &FastPaths::choice_bounds, true},
-    {"recent_levels", &FastPaths::recent_levels, true},
+    {"level_delta", &FastPaths::level_delta, true},
     {"last_values", &FastPaths::last_values, true},
     {"sum_tables", &FastPaths::sum_tables, false},
     {"face_flow", &FastPaths::face_flow, false},

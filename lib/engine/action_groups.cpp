@@ -33,8 +33,8 @@ ActionGrouping::ActionGrouping(const RowEngine& engine, const std::vector<InputC
                                std::vector<ActionSource> sources, ThreadTeam& team)
     : engine_(&engine), sources_(std::move(sources)) {
   REQUIRES(std::accumulate(classes.begin(), classes.end(), std::size_t{0},
-                           [](std::size_t sum, const InputClass& own) {
-                             return sum + own.inputs().size();
+                           [](std::size_t sum, const InputClass& one) {
+                             return sum + one.inputs().size();
                            }) == engine.abstraction().inputs.size());
   for (const InputClass& inputs : classes) {
     classes_.push_back(make_class(inputs));
@@ -54,29 +54,29 @@ ActionGrouping::ClassData ActionGrouping::make_class(const InputClass& inputs) c
 ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassData& data) const {
   const InputSpace& space = engine_->abstraction().inputs;
   const ActionSource& source = sources_[table];
-  const InputClass own(space, intersection(source.inputs, data.inputs.inputs()));
+  const InputClass used(space, intersection(source.inputs, data.inputs.inputs()));
   const InputClass others(space, difference(source.inputs, data.inputs.inputs()));
-  View view{.table = table, .width = own.actions()};
+  View view{.table = table, .width = used.actions()};
 
   view.all_distinct = source.all_distinct();
   if (others.inputs().empty()) {
-    // The table's own layout is row-major over `own` too.
+    // The table's layout is row-major over `used` too.
     for (const std::int64_t c : data.inputs.offsets(source.input_stride)) {
       view.combination.push_back(static_cast<std::int32_t>(c));
     }
     return view;
   }
   // Number of each action's combination of the inputs in use.
-  for (const std::int64_t c : data.inputs.offsets(own.strides())) {
+  for (const std::int64_t c : data.inputs.offsets(used.strides())) {
     view.combination.push_back(static_cast<std::int32_t>(c));
   }
   if (view.all_distinct) return view;
-  const std::vector<std::int64_t> own_offsets = own.offsets(source.input_stride);
+  const std::vector<std::int64_t> used_offsets = used.offsets(source.input_stride);
   const std::vector<std::int64_t> other_offsets = others.offsets(source.input_stride);
   const auto total = static_cast<std::int64_t>(source.ids->size());
   std::map<std::vector<std::uint32_t>, std::uint32_t> numbers;
   for (std::int64_t base = 0; base < total; base += source.input_combinations) {
-    for (const std::int64_t offset : own_offsets) {
+    for (const std::int64_t offset : used_offsets) {
       std::vector<std::uint32_t> column;
       for (const std::int64_t other : other_offsets) {
         column.push_back((*source.ids)[static_cast<std::size_t>(base + offset + other)]);
@@ -131,7 +131,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
-    // Not easily told where columns or rows of `allow` are numbered.
+    // Numbers of columns, or of rows of `allow`, do not tell which is inside which.
     const RowSlices* slices = view.partial.empty() ? sources_[view.table].slices : nullptr;
     const GridDimension& target = engine_->target(slices == nullptr ? 0 : view.table);
     const auto number = [&](std::size_t g) {
@@ -165,7 +165,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   }
 }
 
-/// The choices that own rows have, which are neighbours: those of all states, or of some leading indices.
+/// The choices of states in own rows, from the first to the last.
 RowShare::Range ActionGrouping::held_choices(const ClassData& data, std::int64_t choices) const {
   const RowShare* const share = engine_->share();
   const RowShare::Range own = own_rows(share, engine_->rows());
@@ -218,12 +218,12 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
 
 void ActionGrouping::group(const RowPlace& place, RowGroups& groups) const {
   groups.classes.resize(classes_.size());
-  groups.own.resize(classes_.size());
+  groups.unshared.resize(classes_.size());
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     const ClassData& data = classes_[c];
     if (data.shared.empty()) {
-      groups.own[c] = find_groups(data, place);
-      groups.classes[c] = &groups.own[c];
+      groups.unshared[c] = find_groups(data, place);
+      groups.classes[c] = &groups.unshared[c];
       continue;
     }
     const std::int64_t choice = place.offset(data.state_stride) - data.before;

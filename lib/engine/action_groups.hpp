@@ -11,26 +11,24 @@
 
 namespace coordreq {
 
-/// The actions of one class in one row, sorted into groups that cannot be told apart there: same post, tube
-/// and `allow` whatever the other classes do. Groups are numbered by their first actions.
+/// The actions of one class in one row, sorted into groups: actions of a group have the same post, tube and
+/// `allow` in the row, whatever the other classes do. Groups are numbered by their first actions.
 struct ActionGroups {
   std::vector<std::uint32_t> group_of;        ///< [action]
   std::vector<std::uint32_t> representative;  ///< [group], its lowest action
-  /// Groups g for which no other group has its post (and tube) inside that of g: enough wherever *some*
-  /// action is asked for.
+  /// Groups with no other group's post (and tube) inside theirs: enough wherever *some* action is asked for.
   std::vector<std::uint32_t> minimal;
-  /// Groups g whose post is in that of no other group: enough where *every* action is asked for.
+  /// Groups whose post is inside no other group's: enough where *every* action is asked for.
   std::vector<std::uint32_t> maximal;
   std::vector<std::uint32_t> all;  ///< 0, 1, ..., size() - 1
-  /// [g * size() + h], see is_within(); empty if there are too many groups to compare.
+  /// [g * size() + h] is_within(g, h); empty if there are too many groups to compare.
   std::vector<std::uint8_t> within;
 
-  /// Of each group g those h != g that it is within, ascending: holders[g] of is_within(g, h). Few, as most
-  /// boxes are in few others.
+  /// [g] the other groups h with is_within(g, h), ascending. Few, as most boxes are in few others.
   std::vector<std::vector<std::uint32_t>> holders;
 
-  /// True if, whatever the others do, the post under g lies inside the post under h (and so do the tubes),
-  /// and `allow` says the same of both. May be false where that is not easily seen.
+  /// True if, whatever the other classes do, the post under g lies inside the post under h (and so do the
+  /// tubes), and `allow` permits both at the same cells. False also where that is not seen from the slices.
   [[nodiscard]] bool is_within(std::uint32_t g, std::uint32_t h) const {
     return !within.empty() && within[g * size() + h] != 0;
   }
@@ -40,20 +38,22 @@ struct ActionGroups {
 /// The groups of all classes in one row.
 struct RowGroups {
   std::vector<const ActionGroups*> classes;
-  std::vector<ActionGroups> own;  ///< storage for what is not shared between rows
+  std::vector<ActionGroups> unshared;  ///< [class] storage for groups that are not shared between rows
 };
 
-/// Finds the groups of a row. On a grid most inputs move a cell to the same box; a row of the circle has 25
-/// joint groups for its 1681 joint inputs.
+/// Finds the groups of a row.
 ///
-/// What a class can do depends on few states (its own vehicle, say), so the groups are found once for each
-/// choice of those and looked up for every row.
+/// Why: on a grid most inputs move a cell to the same box, so that few groups stand for many actions; a row
+/// of the circle has 25 joint groups for its 1681 joint inputs (FastPaths::grouped_actions). The posts of a
+/// class depend on few states, those of its own vehicle, say, so groups are found once for each choice of
+/// these states and looked up for every row (shared_groups); and posts inside others need not be tried
+/// (covered_actions). Together they made the layers of the gridworld four times faster.
 class ActionGrouping {
  public:
   /// @pre the classes are a partition of all inputs. @pre unchecked: `engine` outlives this object
   ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes, ThreadTeam& team)
       : ActionGrouping(engine, classes, action_sources(engine), team) {}
-  /// Told apart by other sources.
+  /// With sources of its own instead of those of the engine.
   ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
                  std::vector<ActionSource> sources, ThreadTeam& team);
 
@@ -63,16 +63,16 @@ class ActionGrouping {
   void group(const RowPlace& place, RowGroups& groups) const;
 
   [[nodiscard]] const RowEngine& engine() const { return *engine_; }
-  /// What tells actions apart: usually the engine's slices in order (posts, then tubes), then `allow` if
-  /// there is one.
+  /// The tables that tell actions apart: usually the engine's slices in order (posts, then tubes), then
+  /// `allow` if there is one.
   [[nodiscard]] const std::vector<ActionSource>& sources() const { return sources_; }
-  /// What action `a` of class c adds to an entry's position in source t.
+  /// The number that action `a` of class c adds to an entry's position in source t.
   [[nodiscard]] std::int64_t contribution(std::size_t c, std::size_t t, std::uint32_t a) const {
     return classes_[c].contribution[t][a];
   }
 
  private:
-  /// What one table (or `allow`, the last one) says of the actions of a class.
+  /// One source, as it tells the actions of a class apart.
   struct View {
     std::size_t table = 0;
     /// Every combination is told apart, in every row.
@@ -90,8 +90,8 @@ class ActionGrouping {
         contribution;  ///< [table][action]: offset of the action in the table
     std::vector<std::int64_t>
         state_stride;                   ///< into `shared`, by state; 0 where the class does not depend on it
-    std::vector<std::uint32_t> shared;  ///< choice of those states -> number in `distinct`; empty: not shared
-    std::int64_t before = 0;            ///< choices in front of those that are held
+    std::vector<std::uint32_t> shared;  ///< [choice of these states] number in `distinct`; empty: not shared
+    std::int64_t before = 0;            ///< choices before the first one in `shared`
     std::vector<ActionGroups> distinct;
   };
 
@@ -101,7 +101,7 @@ class ActionGrouping {
   [[nodiscard]] RowShare::Range held_choices(const ClassData& data, std::int64_t choices) const;
   [[nodiscard]] ActionGroups find_groups(const ClassData& data, const RowPlace& place) const;
   void compare_groups(const ClassData& data, const RowPlace& place, ActionGroups& groups) const;
-  /// Numbers of the combinations in a row; null where they are their own.
+  /// [combination] its number in a row; null: each is its own number.
   [[nodiscard]] const std::uint32_t* view_ids(const View& view, const RowPlace& place) const;
 
   const RowEngine* engine_;

@@ -7,14 +7,14 @@
 
 namespace coordreq {
 
-/// What tells actions apart in a row, seen alike: a table of slices, or the rows of a table of pairs.
-/// Entry = sum of state index * state_stride + input index * input_stride; equal numbers mean equal contents.
+/// A table that tells actions apart in a row: of slices, or of rows of pairs.
+/// Entry = sum of state index * state_stride + input index * input_stride; equal ids mean equal contents.
 struct ActionSource {
   const RowSlices* slices = nullptr;                ///< null: `ids` are those of a table of pairs
   const std::vector<std::uint32_t>* ids = nullptr;  ///< [entry]; null: every entry is its own number
   std::vector<std::int64_t> state_stride;
   std::vector<std::int64_t> input_stride;
-  std::int64_t before = 0;           ///< entries in front of those that are held
+  std::int64_t before = 0;           ///< entries before the first one held
   std::vector<std::int32_t> inputs;  ///< in use, ascending
   std::int64_t input_combinations = 1;
 
@@ -29,7 +29,8 @@ struct ActionSource {
 
 [[nodiscard]] ActionSource source_of(const PairTable& pairs, const InputSpace& inputs);
 
-/// The engine's slices in order (posts, then tubes), then `allow` if there is one. They refer to the engine.
+/// The engine's slices in order (posts, then tubes), then `allow` if there is one. The sources refer to the
+/// engine.
 [[nodiscard]] std::vector<ActionSource> action_sources(const RowEngine& engine);
 
 }  // namespace coordreq

@@ -7,30 +7,29 @@
 
 #include "base/zeroed_array.hpp"
 #include "engine/level_rows.hpp"
-#include "engine/row_mirror.hpp"
+#include "engine/row_symmetry.hpp"
 
 namespace coordreq {
 
-/// The rows that a wave has to look at. Rows without a cell in the set never change, nor do those that have
-/// sunk as deep (risen as high) as cells in the set can; of rows that are images of each other the first is
-/// enough.
+/// The rows that a wave has to look at. Rows without a cell in the set never change, nor do rows that have
+/// sunk as deep (risen as high) as cells in the set can; of permuted rows the canonical one is enough.
 class AliveRows {
  public:
   /// @param own the rows to choose from
-  /// @param unit_rows rows of a unit, for each of which the rows are counted
-  /// @param mirror may be null
+  /// @param unit_rows rows of a unit: alive rows are counted by unit
+  /// @param symmetry may be null
   template <class Level>
   AliveRows(const LevelRows<Level>& levels, RowShare::Range own, std::int64_t unit_rows, bool rises,
-            const RowMirror* mirror)
+            const RowSymmetry* symmetry)
       : is_alive_(static_cast<std::size_t>(levels.rows())),
         of_unit_(static_cast<std::size_t>((own.end + unit_rows - 1) / unit_rows), 0) {
-    const Level* before = nullptr;  // rows that are shared are often the same ones one after the other
+    const Level* before = nullptr;  // rows that are held once often follow one another
     bool can = false;
     for (std::int64_t r = own.begin; r < own.end; ++r) {
       const Level* const row = levels.row(r);
       if (row != before) can = can_change(levels, row, rises);
       before = row;
-      if (!can || (mirror != nullptr && !mirror->is_first(r))) continue;
+      if (!can || (symmetry != nullptr && !symmetry->is_canonical(r))) continue;
       is_alive_[static_cast<std::size_t>(r)] = 1;
       ++of_unit_[static_cast<std::size_t>(r / unit_rows)];
       ++count_;

@@ -1,6 +1,6 @@
 // The kernels on rows of bits, built as level_kernels_impl.hpp is, and with the same rules.
 //
-// Shape: rows have a few to a few hundred words, and their ends are not padded. So whole vectors first, then
+// Rows have a few to a few hundred words, and their ends are not padded: so whole vectors come first, then
 // single words, by one function for both.
 
 #include <stddef.h>

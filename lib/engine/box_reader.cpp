@@ -16,10 +16,10 @@ constexpr std::int64_t kMostShared = 1024;
 /// Wider windows are taken by doubling.
 constexpr std::int64_t kNarrowWindow = 6;
 
-/// In shorter rows looking for equal ones takes longer than their minimum.
+/// In shorter rows it takes longer to look for equal rows than to take their minimum.
 constexpr std::int64_t kLongRow = 1024;
 
-/// Leaves each row once, where rows that are equal are one.
+/// Removes rows that come again, where equal rows are one.
 template <class Level>
 void leave_different(const LevelRows<Level>& levels, std::vector<const Level*>& rows) {
   if (!levels.is_interned() || levels.row_length() < kLongRow || rows.size() < 2) return;
@@ -61,8 +61,8 @@ template <class Level>
 const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
   bool blocked = false;
   bool gone = false;
-  if (!fits_one_piece(ids, blocked, gone)) {
-    read_in_pieces(ids);
+  if (!is_one_segment(ids, blocked, gone)) {
+    read_by_segments(ids);
   } else if (blocked) {
     std::fill(result_.begin(), result_.end(), Level{0});
   } else {
@@ -80,9 +80,10 @@ const Level* BoxReader<Level>::minimum(const RowBox& box, std::int64_t begin, st
   return result_.data();
 }
 
-/// The common case: every slice is one segment. Sets the box of rows.
+/// Whether every slice is one segment, as is most common. Sets ranges_, and whether the segments are blocked
+/// or gone.
 template <class Level>
-bool BoxReader<Level>::fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone) {
+bool BoxReader<Level>::is_one_segment(std::span<const std::uint32_t> ids, bool& blocked, bool& gone) {
   const std::size_t across = engine_.across();
   ranges_.resize(across);
   for (std::size_t t = 0; t < ids.size(); ++t) {
@@ -96,12 +97,13 @@ bool BoxReader<Level>::fits_one_piece(std::span<const std::uint32_t> ids, bool& 
   return true;
 }
 
-/// The whole row, where every slice is one segment; in rows along several dimensions these are shifted.
+/// Reads the whole row where every slice is one segment; in rows along several dimensions segments are
+/// shifted.
 template <class Level>
 void BoxReader<Level>::read_row(std::span<const std::uint32_t> ids, bool gone) {
   if (engine_.along() == 1) {
     const std::size_t last = ids.size() - 1;
-    read_piece(family_.slices[last].slices[ids[last]][0], gone, 0, levels_->row_length(), result_.data());
+    read_segment(family_.slices[last].slices[ids[last]][0], gone, 0, levels_->row_length(), result_.data());
     return;
   }
   windows_.clear();
@@ -111,7 +113,7 @@ void BoxReader<Level>::read_row(std::span<const std::uint32_t> ids, bool gone) {
 }
 
 template <class Level>
-void BoxReader<Level>::read_in_pieces(std::span<const std::uint32_t> ids) {
+void BoxReader<Level>::read_by_segments(std::span<const std::uint32_t> ids) {
   const std::size_t last = ids.size() - 1;
   ranges_.resize(last);
   slices_.clear();
@@ -132,17 +134,17 @@ void BoxReader<Level>::read_in_pieces(std::span<const std::uint32_t> ids) {
     if (blocked) {
       std::fill(result_.begin() + begin, result_.begin() + end, Level{0});
     } else {
-      read_piece((*slices_[last])[positions_[last]], gone, begin, end, wide_.data());
+      read_segment((*slices_[last])[positions_[last]], gone, begin, end, wide_.data());
       std::copy(wide_.begin(), wide_.begin() + (end - begin), result_.begin() + begin);
     }
     begin = end;
   }
 }
 
-/// Lanes [begin, end), the first of them to out[0].
+/// Reads the lanes [begin, end), the first of them to out[0].
 template <class Level>
-void BoxReader<Level>::read_piece(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end,
-                                  Level* out) {
+void BoxReader<Level>::read_segment(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end,
+                                    Level* out) {
   if (last.kind == Kind::gone) {
     std::fill_n(out, end - begin, kTop);
   } else if (last.kind == Kind::shifted) {
@@ -153,24 +155,24 @@ void BoxReader<Level>::read_piece(const RowSegment& last, bool gone, std::int64_
   }
 }
 
-/// The minimum over all rows of the box and all offsets of the windows.
+/// Reads the minimum over all rows of the box and all offsets of the windows.
 template <class Level>
 void BoxReader<Level>::read_windows(bool gone, std::int64_t begin, std::int64_t end, Level* out) {
   collect_rows(gone);
   const std::size_t along = windows_.size();
   std::int64_t first = begin;
-  std::int64_t lanes = end - begin;  // those that the windows still to be taken need
+  std::int64_t lanes = end - begin;  // that the windows not yet taken need
   for (std::size_t k = 0; k < along; ++k) {
     first += windows_[k].first * shape_.dimensions[k].stride;
     lanes += (std::int64_t{windows_[k].last} - windows_[k].first) * shape_.dimensions[k].stride;
   }
   sources_.clear();
   for (const Level* row : rows_) sources_.push_back(row + first);
-  // One pass a window: fewer looks than at all offsets of all windows.
+  // One pass a window reads less than all offsets of all windows together.
   for (std::size_t k = 0; k < along; ++k) {
     lanes -= (std::int64_t{windows_[k].last} - windows_[k].first) * shape_.dimensions[k].stride;
     const bool is_last = k + 1 == along;
-    // Where nothing is to be combined the next pass reads the same row.
+    // A window of one offset over one row changes nothing: the next pass reads that row.
     if (!is_last && sources_.size() == 1 && windows_[k].first == windows_[k].last) continue;
     take_window(k, static_cast<std::size_t>(lanes), is_last ? out : wide_.data());
     sources_.assign(1, wide_.data());
@@ -202,7 +204,7 @@ void BoxReader<Level>::take_window(std::size_t k, std::size_t lanes, Level* out)
   if (out != wide_.data()) std::copy_n(wide_.data(), lanes, out);
 }
 
-/// All cells go to the same ones, which may go on at the other end of a ring.
+/// All cells go to the same range, which may go on at the other end of a ring.
 template <class Level>
 void BoxReader<Level>::read_fixed(IndexRange range, bool gone, std::int64_t begin, std::int64_t end,
                                   Level* out) {
@@ -218,7 +220,7 @@ void BoxReader<Level>::read_fixed(IndexRange range, bool gone, std::int64_t begi
   std::fill_n(out, end - begin, least);
 }
 
-/// rows_ = the rows of the box, each standing for all of the shared dimensions.
+/// rows_ = the rows of the box, or minima over its leading dimensions.
 template <class Level>
 void BoxReader<Level>::collect_rows(bool gone) {
   if (gone) {
@@ -244,17 +246,17 @@ typename BoxReader<Level>::Shared& BoxReader<Level>::shared() {
   const auto is_wanted = [&](const Shared& slot) {
     return slot.epoch == epoch_ && std::equal(slot.ranges.begin(), slot.ranges.end(), ranges_.begin());
   };
-  if (is_wanted(slots_[recent_])) return slots_[recent_];
+  if (is_wanted(slots_[last_slot_])) return slots_[last_slot_];
   std::uint64_t hash = 0;
   for (auto range = ranges_.begin(); range != ranges_.begin() + outer; ++range) {
     hash = (hash ^ static_cast<std::uint32_t>(range->first)) * 0x9E3779B97F4A7C15U;
     hash = (hash ^ static_cast<std::uint32_t>(range->last)) * 0x9E3779B97F4A7C15U;
   }
-  // Two places to look; where both are taken the second gives way.
-  recent_ = (hash >> 32) % slots_.size();
-  if (is_wanted(slots_[recent_])) return slots_[recent_];
-  if (slots_[recent_].epoch == epoch_) recent_ = (recent_ + 1) % slots_.size();
-  Shared& slot = slots_[recent_];
+  // Two slots are looked at; where both are taken the second is used again.
+  last_slot_ = (hash >> 32) % slots_.size();
+  if (is_wanted(slots_[last_slot_])) return slots_[last_slot_];
+  if (slots_[last_slot_].epoch == epoch_) last_slot_ = (last_slot_ + 1) % slots_.size();
+  Shared& slot = slots_[last_slot_];
   if (is_wanted(slot)) return slot;
   slot.epoch = epoch_;
   slot.ranges.assign(ranges_.begin(), ranges_.begin() + outer);
@@ -270,8 +272,8 @@ const Level* BoxReader<Level>::shared_row(Shared& shared, std::int64_t inner) {
             [&](std::int64_t first) { return levels_->row(first + inner); });
   leave_different(*levels_, sources_);
   if (sources_.size() == 1) return known = sources_[0];
-  // Whole blocks are written, so a row has its last block to itself; and read from any lane on, so that
-  // another one follows the last row.
+  // Whole blocks are written, so a row has its last block to itself. Blocks are read from any lane on, so one
+  // more follows the last row.
   constexpr auto kBlock = static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
   const std::int64_t stride = (levels_->stride() + kBlock - 1) / kBlock * kBlock;
   if (shared.storage.empty())

@@ -12,6 +12,9 @@
 namespace coordreq {
 
 /// Reads rows that are cut into segments: the minimum over a box of rows, and over windows along them.
+///
+/// The minimum over the leading dimensions, which is the same for all rows of a unit, is taken once and kept
+/// (the switch is FastPaths::shared_minima).
 template <class Level>
 class BoxReader final : public RowReader<Level> {
  public:
@@ -41,13 +44,13 @@ class BoxReader final : public RowReader<Level> {
     std::uint64_t epoch = 0;
   };
 
-  [[nodiscard]] bool fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone);
-  void read_piece(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end, Level* out);
+  [[nodiscard]] bool is_one_segment(std::span<const std::uint32_t> ids, bool& blocked, bool& gone);
+  void read_segment(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end, Level* out);
   void read_windows(bool gone, std::int64_t begin, std::int64_t end, Level* out);
   void take_window(std::size_t k, std::size_t lanes, Level* out);
   void read_row(std::span<const std::uint32_t> ids, bool gone);
   void read_fixed(IndexRange range, bool gone, std::int64_t begin, std::int64_t end, Level* out);
-  void read_in_pieces(std::span<const std::uint32_t> ids);
+  void read_by_segments(std::span<const std::uint32_t> ids);
   void collect_rows(bool gone);
   [[nodiscard]] Shared& shared();
   [[nodiscard]] const Level* shared_row(Shared& shared, std::int64_t inner);
@@ -59,9 +62,9 @@ class BoxReader final : public RowReader<Level> {
   const LevelKernels<Level>* kernels_;
   std::size_t lanes_;
   RowShape shape_;
-  std::vector<IndexRange> ranges_;   ///< box of rows in question
-  std::vector<IndexRange> windows_;  ///< and windows along them
-  std::vector<const Level*> rows_;   ///< the rows in it, the shared dimensions taken
+  std::vector<IndexRange> ranges_;   ///< of the box being read, in the dimensions across rows
+  std::vector<IndexRange> windows_;  ///< of that box, along rows
+  std::vector<const Level*> rows_;   ///< its rows, or shared minima that stand for them
   std::vector<const Level*> sources_;
   std::vector<std::int64_t> counter_;
   std::vector<std::int64_t> shared_counter_;
@@ -72,7 +75,7 @@ class BoxReader final : public RowReader<Level> {
   std::vector<Level> result_;
   std::vector<Shared> slots_;
   std::uint64_t epoch_ = 1;
-  std::size_t recent_ = 0;  ///< slot used last
+  std::size_t last_slot_ = 0;  ///< slot used last
 };
 
 extern template class BoxReader<std::uint8_t>;

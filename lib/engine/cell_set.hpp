@@ -11,8 +11,8 @@ namespace coordreq {
 /// A set of cells of a grid, one bit a cell, in rows along the last dimension.
 ///
 /// Row-major linear index = row * row_length + column. Each row starts at a word of its own, so that rows can
-/// be shifted and combined without looking at their neighbours and written by different threads; the price is
-/// padding of at most 63 bits a row. Invariant: padding bits are zero.
+/// be shifted and combined without their neighbours and written by different threads; the price is padding of
+/// at most 63 bits a row. Invariant: padding bits are zero.
 class CellSet {
  public:
   using Word = std::uint64_t;

@@ -7,8 +7,8 @@
 
 namespace coordreq {
 
-/// out[i] = convert(level of cell begin + i of the spec's grid) for a stretch of `count` cells; levels never
-/// lost come as the greatest of their width.
+/// out[i] = convert(level of cell begin + i of the spec's grid) for a stretch of `count` cells; cells that
+/// are never lost have the greatest level of the width.
 template <class Out, class Level, class Convert>
 void convert_stretch(const LevelRows<Level>& levels, const CellOrder& order, std::uint64_t begin,
                      std::uint64_t count, Out* out, const Convert& convert) {
@@ -21,7 +21,7 @@ void convert_stretch(const LevelRows<Level>& levels, const CellOrder& order, std
                          return;
                        }
                        const Level* source = levels.row(run.row) + run.column;
-                       if (run.column_step == 1) {  // for the compiler: neighbours can be done together
+                       if (run.column_step == 1) {  // a loop of its own, which compilers vectorise
                          for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i]);
                        } else {
                          for (std::int64_t i = 0; i < run.count; ++i)

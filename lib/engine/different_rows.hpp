@@ -7,8 +7,7 @@
 
 namespace coordreq {
 
-/// The rows that this process owns: where equal ones are shared those that are different, each once, else all
-/// of them.
+/// The rows that this process owns: each different row once if rows are interned, else all rows.
 template <class Level>
 class DifferentRows {
  public:
@@ -23,18 +22,18 @@ class DifferentRows {
     }
   }
 
-  /// What for_each() has to go over.
+  /// The numbers 0, ..., size() - 1 are those that for_each() takes.
   [[nodiscard]] std::int64_t size() const {
     return levels_.is_interned() ? static_cast<std::int64_t>(rows_of_slot_.size()) : own_.end - own_.begin;
   }
-  /// Calls `visit(row, count)`: first cell, and how many rows are like it.
+  /// Calls `visit(cells, count)` with the first cell of a row, and the number of rows equal to it.
   template <class Visit>
   void for_each(ThreadTeam::Range range, const Visit& visit) const {
     for (std::int64_t k = range.begin; k < range.end; ++k) {
       if (!levels_.is_interned()) {
         visit(levels_.row(own_.begin + k), std::int64_t{1});
       } else if (const std::uint32_t count = rows_of_slot_[static_cast<std::size_t>(k)]; count > 0) {
-        visit(levels_.first_place() + k * levels_.stride(), std::int64_t{count});
+        visit(levels_.first_slot() + k * levels_.stride(), std::int64_t{count});
       }
     }
   }

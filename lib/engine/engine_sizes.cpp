@@ -23,7 +23,7 @@ double row_of_words(std::int64_t cells) {
   return sizeof(CellSet::Word) * in_double((cells + CellSet::kWordBits - 1) / CellSet::kWordBits);
 }
 
-/// Of ActionGroups, with what tells equal ones while they are looked for.
+/// Bytes of an ActionGroups, with the memory that finds equal ones.
 double one_grouping(double actions, double groups) {
   constexpr double kBytesOfAction = 8, kBytesOfGroup = 40, kBytesOfPair = 2.5;
   const double pairs = groups <= kMostComparedGroups ? groups * groups : 0;
@@ -37,7 +37,7 @@ bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs)
 }  // namespace
 
 std::vector<double> bytes_of_slices(const RowEngine& engine) {
-  constexpr double kBytesBesideSlice = 64;  // where it stands among others, and what the allocator adds
+  constexpr double kBytesBesideSlice = 64;  // its entry in the hash set, and the overhead of the allocator
   std::vector<double> result;
   for (const RowSlices& slices : engine.posts().slices)
     result.push_back(static_cast<double>(slices.bytes()) +
@@ -45,22 +45,23 @@ std::vector<double> bytes_of_slices(const RowEngine& engine) {
   return result;
 }
 
-EngineSizes::EngineSizes(const Model& model, RowPart part)
+EngineSizes::EngineSizes(const Model& model, RowFractions fractions)
     : model_(&model),
-      part_(std::move(part)),
+      fractions_(std::move(fractions)),
       offsets_(usual_offsets(model.spec())),
       widths_(usual_widths(model.spec())),
       grid_(join_rows(model, offsets_)) {
-  part_.held = std::max(part_.held, 1 / in_double(grid_.rows()));
-  part_.own = std::max(part_.own, 1 / in_double(grid_.rows()));
+  fractions_.held = std::max(fractions_.held, 1 / in_double(grid_.rows()));
+  fractions_.own = std::max(fractions_.own, 1 / in_double(grid_.rows()));
   for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
     const GridDimension& dimension = grid_[i];
     const RowMargins margins = window_margins({&offsets_[grid_.state(i)], 1}, dimension);
     shape_.dimensions.push_back(
         {dimension.count, grid_.stride(i), margins, {dimension.below, dimension.above}});
   }
-  part_.slices.reserve(grid_.size());
-  for (std::size_t t = part_.slices.size(); t < grid_.size(); ++t) part_.slices.push_back(usual_bytes(t));
+  fractions_.slices.reserve(grid_.size());
+  for (std::size_t t = fractions_.slices.size(); t < grid_.size(); ++t)
+    fractions_.slices.push_back(usual_bytes(t));
 }
 
 double EngineSizes::set() const {
@@ -75,7 +76,7 @@ double EngineSizes::levels() const {
 }
 
 double EngineSizes::usual_bytes(std::size_t t) const {
-  constexpr double kBytesOfSlice = 240;  // its list, and where it stands while equal ones are looked for
+  constexpr double kBytesOfSlice = 240;  // its list, and its entry in the hash set of slices
   const TableShape& shape = model_->arranged_shapes()[t];
   if (model_->keeps_sums() && shape.sum) return shape.bytes;  // the same numbers laid out for reading
   double choices = 1;
@@ -94,23 +95,23 @@ double EngineSizes::usual_bytes(std::size_t t) const {
         usual_slices(model_->spec(), state, model_->shapes()[state], grid_.state(grid_.size() - 1));
     bytes += std::min(usual.different, choices) * (usual.segments * sizeof(RowSegment) + kBytesOfSlice);
   }
-  return part_of_table(t) * bytes;
+  return fraction_of_table(t) * bytes;
 }
 
-double EngineSizes::part_of_table(std::size_t t) const {
-  return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? part_.own : 1;
+double EngineSizes::fraction_of_table(std::size_t t) const {
+  return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? fractions_.own : 1;
 }
 
 double EngineSizes::untold_entries() const {
-  if (part_.own == 1) return 0;
-  // One flow serves several states, one map one.
+  if (fractions_.own == 1) return 0;
+  // A flow encloses several states at once, a map one.
   const bool are_together = model_->spec().dynamics.time == Time::continuous;
   double bytes = 0;
   for (const TableShape& shape : model_->shapes()) {
     if (shape.sum) continue;
     bytes = are_together ? bytes + shape.bytes : std::max(bytes, shape.bytes);
   }
-  return part_.own * bytes;
+  return fractions_.own * bytes;
 }
 
 double EngineSizes::hull() const {
@@ -135,11 +136,11 @@ double EngineSizes::condition_of_held(const Program& condition) const {
   const UniformGrid& grid = model_->grid();
   const std::vector<std::uint32_t> slots = condition.variables();
   const bool is_cut = grid.size() > 1 && std::ranges::find(slots, grid.state(0)) != slots.end();
-  return this->condition(condition) * (is_cut ? std::max(part_.held, 1 / in_double(grid[0].count)) : 1);
+  return this->condition(condition) * (is_cut ? std::max(fractions_.held, 1 / in_double(grid[0].count)) : 1);
 }
 
 double EngineSizes::packed_pairs(std::int64_t actions) const {
-  return part_.held * cells() * in_double(PackedPairs::bytes_for(actions));
+  return fractions_.held * cells() * in_double(PackedPairs::bytes_for(actions));
 }
 
 double EngineSizes::pair_table() const {
@@ -154,13 +155,14 @@ double EngineSizes::groups(const std::vector<InputClass>& classes) const {
   return sum;
 }
 
-/// Farther than that posts do not go in dimension i.
+/// How far posts go in dimension i, in indices, either way.
 RowMargins EngineSizes::reach_of(std::size_t i) const {
   const IndexRange offsets = offsets_[grid_.state(i)];
   return {std::max<std::int64_t>(0, -std::int64_t{offsets.first}), std::max<std::int64_t>(0, offsets.last)};
 }
 
-/// Once for each choice of the states that the class depends on, or for each row anew.
+/// Bytes of the groups of a class: one ActionGroups for each different choice of the states that it depends
+/// on, or none where they are found anew for each row.
 double EngineSizes::groups_of_class(const InputClass& inputs) const {
   enum Use : std::uint8_t { none, by_offset, in_full };
   const ControllerSpec& controller = model_->spec().controller;
@@ -172,8 +174,8 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
     if (!has_common(shape.inputs, inputs)) continue;
     groups *= shape.shift ? in_double(reach_of(t).before + reach_of(t).after + 1) : actions;
     for (const std::int32_t j : shape.states) {
-      Use& own = use[at(j)];
-      own = std::max(own, shape.shift ? by_offset : in_full);
+      Use& state_use = use[at(j)];
+      state_use = std::max(state_use, shape.shift ? by_offset : in_full);
     }
   }
   double choices = 1, distinct = 1;
@@ -181,7 +183,7 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
     if (use[i] == none) continue;
     const double count = in_double(grid_[i].count);
     choices *= count;
-    // Groups are others where some of them leave the domain.
+    // Near the ends of the domain, where posts leave, groups differ from those inside.
     const double near_ends = in_double(reach_of(i).before + reach_of(i).after + 1);
     distinct *= use[i] == by_offset ? std::min(count, near_ends) : count;
   }
@@ -189,8 +191,9 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
   if (choices > in_double(most_shared_choices(inputs.actions()))) return offsets;
   // A process finds those of its own rows, or of their first indices (ActionGrouping::held_choices).
   if (grid_.across() > 0 && use[0] != none) {
-    const double held =
-        choices < in_double(grid_.rows()) ? std::max(part_.own, 1 / in_double(grid_[0].count)) : part_.own;
+    const double held = choices < in_double(grid_.rows())
+                            ? std::max(fractions_.own, 1 / in_double(grid_[0].count))
+                            : fractions_.own;
     choices *= held;
     distinct = use[0] == in_full ? distinct * held : std::min(distinct, choices);
   }
@@ -200,7 +203,7 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
 }
 
 double EngineSizes::readers(int threads, double level_bytes) const {
-  constexpr double kRows = 8;  // that a reader and its operator work on
+  constexpr double kRows = 8;  // in the buffers of a reader and its operator
   const double all = level_bytes * levels();
   const double one = kRows * all / rows();
   if (!model_->keeps_sums()) {
@@ -210,12 +213,12 @@ double EngineSizes::readers(int threads, double level_bytes) const {
   return threads * (one + level_bytes * sum_reader());
 }
 
-/// SumReader: blocks for the ranges of the leading dimensions that a unit goes to, with what lies beyond.
+/// SumReader: patches, margins included, for the ranges of the leading dimensions that a unit goes to.
 double EngineSizes::sum_reader() const {
   constexpr double kUsualSizes = 2;  // of a box, in each dimension
   constexpr double kUsualJoined = 8;
   constexpr double kBytesOfMargin = 12;
-  double block = 1, inside = 1, sizes = 1, led = 1;
+  double patch = 1, inside = 1, sizes = 1, led = 1;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     const TableShape& shape = model_->arranged_shapes()[i];
     if (!shape.sum) {
@@ -224,16 +227,16 @@ double EngineSizes::sum_reader() const {
     }
     const double reach = widths_[grid_.state(i)] + most_wider(static_cast<std::int32_t>(grid_[i].count));
     inside *= in_double(grid_[i].count);
-    block *= in_double(grid_[i].count) + 2 * (reach + 1);
+    patch *= in_double(grid_[i].count) + 2 * (reach + 1);
     sizes *= kUsualSizes;
   }
-  const double fitting = std::max(2.0, static_cast<double>(kBlockBytes) / (sizes * block));
+  const double fitting = std::max(2.0, static_cast<double>(kPatchBytes) / (sizes * patch));
   const double slots = std::min(led, fitting);
-  return (slots * sizes + kUsualJoined) * block + kBytesOfMargin * (block - inside);
+  return (slots * sizes + kUsualJoined) * patch + kBytesOfMargin * (patch - inside);
 }
 
 double EngineSizes::wave(int threads) const {
-  return readers(threads) + levels() / in_double(grid_[0].count);  // what has changed in a unit
+  return readers(threads) + levels() / in_double(grid_[0].count);  // rows of a unit before they are written
 }
 
 }  // namespace coordreq

@@ -12,69 +12,71 @@
 
 namespace coordreq {
 
-/// The parts of all rows that one of several processes holds, the halo among them, and that it owns.
-struct RowPart {
+/// How much of all rows one of several processes holds, ghost rows among them, and how much it owns.
+struct RowFractions {
   double held = 1;
   double own = 1;
-  std::vector<double> slices = {};  ///< [table] bytes of EngineSizes::slices(), once they are known
+  std::vector<double> slices = {};  ///< [table] bytes of EngineSizes::slices(), once tables are known
 };
 
-/// What the slices of posts of an engine take, and what tells equal ones while they are cut, by table.
+/// [table] Bytes of the slices of posts of an engine, with the memory that finds equal slices while they are
+/// cut.
 [[nodiscard]] std::vector<double> bytes_of_slices(const RowEngine& engine);
 
-/// What the types of the engine will take for a problem, in bytes, told before there is any of them; maybe
-/// more than this machine has. Rows are those that the engine will make, as far as that is known before
-/// tables are (join_rows()). Where it depends on what is found, on the high side of what is usual.
+/// Estimates of the memory, in bytes, that the types of the engine will take for a problem, before there is
+/// any of them; may be more than this machine has. Rows are those that the engine will make, as far as that
+/// is known before there are tables (join_rows()). Memory that depends on results is estimated on the high
+/// side of the usual.
 class EngineSizes {
  public:
-  /// @param part of a process, of several that share the work; all: there is one. At least a row counts
+  /// @param fractions of a process of several; 1: there is one process. At least one row counts
   /// @pre unchecked: `model` outlives this object.
-  explicit EngineSizes(const Model& model, RowPart part = {});
+  explicit EngineSizes(const Model& model, RowFractions fractions = {});
 
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] double cells() const { return static_cast<double>(grid_.points()); }
-  /// Of the rows that are held, with the gaps in them.
-  [[nodiscard]] double lanes() const { return part_.held * static_cast<double>(grid_.cells()); }
-  [[nodiscard]] double rows() const { return part_.held * static_cast<double>(grid_.rows()); }
+  /// Lanes, gaps included, and number of the rows held.
+  [[nodiscard]] double lanes() const { return fractions_.held * static_cast<double>(grid_.cells()); }
+  [[nodiscard]] double rows() const { return fractions_.held * static_cast<double>(grid_.rows()); }
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
 
   [[nodiscard]] double set() const;     ///< CellSet
   [[nodiscard]] double levels() const;  ///< LevelRows of 8 bits
-  /// RowSlices of the table of dimension t; and that table itself.
-  [[nodiscard]] double slices(std::size_t t) const { return part_.slices[t]; }
+  /// RowSlices of the table of dimension t; and the table itself.
+  [[nodiscard]] double slices(std::size_t t) const { return fractions_.slices[t]; }
   [[nodiscard]] double table(std::size_t t) const {
-    return part_of_table(t) * model_->arranged_shapes()[t].bytes;
+    return fraction_of_table(t) * model_->arranged_shapes()[t].bytes;
   }
-  /// What a process of several keeps of tables in full before all of them are told of it.
+  /// Entries of full tables that a process of several has found and not yet sent to the others.
   [[nodiscard]] double untold_entries() const;
-  /// RowHull, and what else is kept of each row.
+  /// RowHull, and the other lists over rows.
   [[nodiscard]] double hull() const;
-  /// ConditionTable; and one of no other leading indices than the rows that are held have.
+  /// ConditionTable; and one for the leading indices of the rows held alone.
   [[nodiscard]] double condition(const Program& condition) const;
   [[nodiscard]] double condition_of_held(const Program& condition) const;
-  /// PackedPairs of so many inputs or actions; PairTable of all joint inputs.
+  /// PackedPairs of so many joint inputs or actions; PairTable of all joint inputs.
   [[nodiscard]] double packed_pairs(std::int64_t actions) const;
   [[nodiscard]] double pair_table() const;
   /// ActionGrouping
   [[nodiscard]] double groups(const std::vector<InputClass>& classes) const;
-  /// PostReader of levels of so many bytes, one a thread.
+  /// One PostReader a thread, of levels of `level_bytes` bytes.
   [[nodiscard]] double readers(int threads, double level_bytes = 1) const;
-  /// run_wave() beside its levels.
+  /// run_wave(), without its levels.
   [[nodiscard]] double wave(int threads) const;
-  /// And where its operator is a minimum.
-  [[nodiscard]] double recent_levels() const { return model_->keeps_sums() ? levels() + set() : 0; }
+  /// LevelDelta, where the operator of a wave is a minimum.
+  [[nodiscard]] double level_delta() const { return model_->keeps_sums() ? levels() + set() : 0; }
 
  private:
   [[nodiscard]] double sum_reader() const;
-  /// Of slices, before they are known.
+  /// Bytes of the slices of table t before there are tables.
   [[nodiscard]] double usual_bytes(std::size_t t) const;
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
   [[nodiscard]] RowMargins reach_of(std::size_t i) const;
-  /// That the process has: of tables by cells the entries of its own rows.
-  [[nodiscard]] double part_of_table(std::size_t t) const;
+  /// How much of table t the process has: of tables by cells the entries of its own rows, else all.
+  [[nodiscard]] double fraction_of_table(std::size_t t) const;
 
   const Model* model_;
-  RowPart part_;
+  RowFractions fractions_;
   std::vector<IndexRange> offsets_;   ///< by state, usual_offsets()
   std::vector<std::int32_t> widths_;  ///< by state, usual_widths()
   UniformGrid grid_;

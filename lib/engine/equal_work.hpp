@@ -1,22 +1,22 @@
 #pragma once
 
-#include "engine/row_mirror.hpp"
+#include "engine/row_symmetry.hpp"
 #include "engine/tiles.hpp"
 
 namespace coordreq {
 
-/// Work of an operator on levels that is known to be equal.
+/// Where an operator does the same work on levels: by tables, by contents, by symmetry.
 struct EqualWork {
-  /// Tiles, and [tile] equal numbers where an operator asks the same of the levels, seen from the tiles.
-  const Tiles* tiles = nullptr;  ///< null: nobody looks for equal work
+  const Tiles* tiles = nullptr;  ///< null: equal work is not looked for
+  /// [tile] Equal numbers where the operator asks the same of the levels, seen from the tiles.
   const Tiles::Numbers* numbers = nullptr;
-  /// Rows of which an operator says the same where levels are the same in all images; null: there are none.
-  /// @pre unchecked: all rows of a tile of many are first, or none is.
-  const RowMirror* mirror = nullptr;
+  /// Under which the operator's levels of a row do not change as long as its own do not; null: there is none.
+  /// @pre unchecked: of a tile of several rows all are canonical, or none is.
+  const RowSymmetry* symmetry = nullptr;
 
-  /// With numbers, those of the tables if there are none yet.
+  /// The same with the numbers of the tables if there are no numbers.
   [[nodiscard]] EqualWork by_tables() const {
-    return {tiles, tiles != nullptr && numbers == nullptr ? &tiles->tables() : numbers, mirror};
+    return {tiles, tiles != nullptr && numbers == nullptr ? &tiles->tables() : numbers, symmetry};
   }
 };
 

@@ -11,21 +11,21 @@
 namespace coordreq {
 namespace {
 
-/// A level in fewer or more bits: what does not fit is kTop, which is not too low.
+/// A level in fewer or more bits: a level that does not fit becomes kTop, which is not too low.
 template <class Level, class Other>
 Level converted(Other level) {
   if (level == LevelRows<Other>::kTop || level >= LevelRows<Level>::kTop) return LevelRows<Level>::kTop;
   return static_cast<Level>(level);
 }
 
-/// The same for levels that rise: as far from kTop as it was. 0 and 1 say nothing of a goal.
+/// A level of nearness in more bits: as far from kTop as it was. 0 and 1 stay, which are not distances.
 template <class Wide, class Narrow>
 Wide raised(Narrow level) {
   if (level <= 1) return level;
   return static_cast<Wide>(LevelRows<Wide>::kTop - (LevelRows<Narrow>::kTop - level));
 }
 
-/// Calls `change(row, cells)` for every row held, and puts the cells that it leaves in `levels`.
+/// Calls `change(row, cells)` for every row held, with a copy of its cells, and puts them back into `levels`.
 template <class Level, class Change>
 void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& change) {
   // Rows that are interned are put one after the other.
@@ -58,26 +58,27 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
   bound.visit([&]<class Other>(const LevelRows<Other>& other) {
     change_rows(levels, team, [&](std::int64_t r, Level* cells) {
       std::transform(cells, cells + levels.row_length(), other.row(r), cells,
-                     [](Level own, Other least) { return std::min(own, converted<Level>(least)); });
+                     [](Level level, Other least) { return std::min(level, converted<Level>(least)); });
     });
   });
 }
 
-/// Makes images of rows equal: what is a bound of the first of them is one of all. The least of them would be
-/// closer, but a process does not hold all. @returns whether a level has changed; it may have risen
+/// Makes rows equal to their canonical rows, whose bounds are bounds of all permuted rows. The least of these
+/// would be closer, but a process does not hold all of them. @returns whether a level has changed; it may
+/// have risen
 template <class Level>
-bool follow_first_images(const RowMirror& mirror, LevelRows<Level>& levels) {
+bool copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels) {
   bool has_changed = false;
   for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
-      const std::int64_t first = mirror.first_of(r);
+      const std::int64_t first = symmetry.canonical_of(r);
       if (first != r && levels.copy_row(first, r)) has_changed = true;
     }
   }
   return has_changed;
 }
 
-/// Some cell of any process has this level. Gaps have that of no cell that counts.
+/// Whether some cell of any process has this level. Levels in gaps do not count.
 template <class Level>
 bool has_level(const LevelRows<Level>& levels, Level level) {
   bool found = false;
@@ -90,7 +91,8 @@ bool has_level(const LevelRows<Level>& levels, Level level) {
   return sum_of_all(levels.share(), found ? 1 : 0) > 0;
 }
 
-/// False if a cell has the last level of the width: the ones before it may need more.
+/// False if a cell has the last finite level of the width: then cells at kTop may have finite levels beyond
+/// it.
 template <class Level>
 bool is_enough(const LevelRows<Level>& levels, bool rises, std::int64_t limit) {
   constexpr Level kTop = LevelRows<Level>::kTop;
@@ -98,15 +100,15 @@ bool is_enough(const LevelRows<Level>& levels, bool rises, std::int64_t limit) {
   return (limit >= 0 && limit < kTop - 1) || !has_level(levels, static_cast<Level>(kTop - 1));
 }
 
-/// Above the limit of the width in use levels count as kTop, which is not too low: the wave can go on from
-/// there with more bits.
+/// The limit in a width. Levels above it count as kTop, which is not too low, so that the wave can go on from
+/// them with more bits.
 template <class Level>
 Level clipped(std::int64_t limit) {
   constexpr std::int64_t kMost = std::int64_t{LevelRows<Level>::kTop} - 1;
   return static_cast<Level>(limit < 0 ? kMost : std::min(limit, kMost));
 }
 
-/// One problem, with as many bits a cell as it takes.
+/// Finds the levels of one problem, with as many bits a cell as they need.
 class LevelFinder {
  public:
   LevelFinder(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
@@ -116,7 +118,8 @@ class LevelFinder {
   LevelMap from_start() {
     return fast_paths().narrow_levels ? from_start_of<std::uint8_t>() : from_start_of<std::uint32_t>();
   }
-  /// What is settled at the bounds may not be so at levels that have sunk below them.
+  /// @param settled of these levels: rows settled at the bounds need not be at levels that have sunk below
+  /// them
   template <class Level>
   LevelMap from(LevelRows<Level> levels, const std::vector<std::uint8_t>& settled = {}) {
     const auto op = make_operator<Level>();
@@ -126,8 +129,8 @@ class LevelFinder {
       step.sweep += before;
       watch_.step(step);
     } : std::function<void(const WaveStep&)>()};
-    const RowMirror* const mirror = problem_.equal.mirror;
-    const bool has_changed = mirror != nullptr && follow_first_images(*mirror, levels);
+    const RowSymmetry* const symmetry = problem_.equal.symmetry;
+    const bool has_changed = symmetry != nullptr && copy_canonical_rows(*symmetry, levels);
     counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit),
                          has_changed ? std::vector<std::uint8_t>{} : settled, *op, watch, team_,
                          problem_.equal));

@@ -10,13 +10,13 @@
 
 namespace coordreq {
 
-/// What a fixed point is asked for, whatever the width of its levels.
+/// A fixed point to be found, whatever the width of its levels.
 struct LevelProblem {
   const CellSet* start = nullptr;  ///< the first set; levels of its cells are above 0
-  /// Cells that keep kTop whatever the operator says of them; null: none. @pre unchecked: they have it at
-  /// first, in the start and in all bounds, and `equal` tells rows apart in which there are others.
+  /// Cells that keep kTop without being asked about; null: none. @pre unchecked: they have kTop in the start
+  /// and in all bounds, and `equal` tells apart rows that differ in them
   const CellSet* spared = nullptr;
-  /// Levels that are known not to be too low: each with the same start, the greatest solution of
+  /// Levels that are not below the solution: each with the same start, the greatest solution of
   /// level = 1 + op'(level) for some op' that is nowhere below this problem's, under the same limit.
   ///
   /// The wave begins at their pointwise minimum B instead of at the start, with the same result:
@@ -26,9 +26,9 @@ struct LevelProblem {
   /// 2. From B levels only ever sink, as run_wave() requires: 1 + op(B) <= 1 + op'(L') = L' for each bound
   ///    L', since B <= L' and op is monotone, so 1 + op(B) <= B.
   std::vector<const LevelMap*> bounds;
-  /// [row] not 0 where 1 + op(B) = B, see run_wave(); null: unknown.
+  /// [row] not 0 where 1 + op(B) = B, see run_wave(); null: not known of any.
   const std::vector<std::uint8_t>* settled = nullptr;
-  /// What the operator says depends on these and on the levels alone; see run_wave().
+  /// The numbers that, with the levels, the operator depends on; see run_wave().
   EqualWork equal = {};
   /// Finite levels go up to this; cells that would have more count as never lost. Negative: no limit.
   std::int64_t limit = -1;
@@ -37,8 +37,9 @@ struct LevelProblem {
   std::function<std::unique_ptr<RowOperator<std::uint32_t>>()> make32;
 };
 
-/// Runs the wave with 8 bits a cell, and goes on with more where they turn out not to be enough. Levels that
-/// are resumed keep the bits they have.
+/// Runs the wave with 8 bits a cell, and goes on with 16 or 32 where 8 turn out not to be enough: most
+/// problems have fewer than 254 finite levels, and a row of bytes is a quarter as long as one of 32 bits. The
+/// switch is FastPaths::narrow_levels. Levels that are resumed keep their width.
 [[nodiscard]] LevelMap find_levels(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
                                    const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts);
 

@@ -11,7 +11,7 @@
 namespace coordreq {
 namespace {
 
-/// More cells than this are only ever asked for in estimates, and with gaps could pass 64 bits.
+/// Grids of more cells occur in estimates alone; with gaps their lanes could pass 64 bits.
 constexpr std::int64_t kMostCells = std::int64_t{1} << 50;
 
 bool is_shift(const TransitionTable& table) {
@@ -21,7 +21,7 @@ bool is_shift(const TableShape& shape) {
   return shape.shift && !shape.sum;
 }
 
-/// As far as offsets go, either way; nothing if that is farther than the dimension is long.
+/// How far offsets reach beyond the ends, either way; nothing if an offset is as long as the dimension.
 std::optional<RowMargins> margins(std::span<const IndexRange> offsets, const GridDimension& dimension) {
   if (dimension.count < 2) return std::nullopt;
   for (const IndexRange entry : offsets) {
@@ -31,7 +31,7 @@ std::optional<RowMargins> margins(std::span<const IndexRange> offsets, const Gri
   return window_margins(offsets, dimension);
 }
 
-/// True if no state depends on one from `i` on, but for itself.
+/// True if no dimension depends on a dimension from `i` on, but for itself.
 template <class Table>
 bool are_alone_from(std::size_t i, const std::vector<Table>& tables) {
   for (std::size_t t = 0; t < tables.size(); ++t) {
@@ -42,17 +42,17 @@ bool are_alone_from(std::size_t i, const std::vector<Table>& tables) {
   return true;
 }
 
-/// @param offsets(i) those of dimension i
+/// @param offsets called with i: the offsets of dimension i
 template <class Table, class Offsets>
 UniformGrid joined(const UniformGrid& grid, const std::vector<Table>& tables, const Offsets& offsets,
                    std::size_t most) {
   if (!fast_paths().joined_rows) return grid;
-  std::vector<std::int64_t> gaps;  // of all dimensions taken so far, the first one too
+  std::vector<std::int64_t> gaps;  // of all dimensions taken so far, the slowest included
   std::int64_t lanes = 1;
   for (std::size_t i = grid.size() - 1; i > 0 && gaps.size() < most; --i) {
-    const auto own = is_shift(tables[i]) ? margins(offsets(i), grid[i]) : std::nullopt;
-    if (!own || !are_alone_from(i, tables) || lanes * grid[i].count > kMostJoinedLanes) break;
-    gaps.insert(gaps.begin(), own->before + own->after);
+    const auto reach = is_shift(tables[i]) ? margins(offsets(i), grid[i]) : std::nullopt;
+    if (!reach || !are_alone_from(i, tables) || lanes * grid[i].count > kMostJoinedLanes) break;
+    gaps.insert(gaps.begin(), reach->before + reach->after);
     lanes *= grid[i].count + gaps.front();
   }
   if (gaps.size() < 2) return grid;

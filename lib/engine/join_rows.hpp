@@ -10,21 +10,21 @@
 
 namespace coordreq {
 
-/// The grid of an abstraction with rows along as many of the last dimensions as can be: each of them moves by
-/// offsets that depend on none of them, and none of the others depends on them. So do integrators (x' = x +
-/// u).
+/// The grid of an abstraction with rows along as many of the last dimensions as possible: each of them moves
+/// by offsets that depend on none of them, and no other dimension depends on them. Integrators (x' = x + u)
+/// do.
 ///
-/// A window of offsets in each dimension is then one of lanes of the row, and what is done once a row (which
-/// actions there are, which rows they lead to) is done once for a whole plane of cells: on the gridworld of
-/// the paper 41 times less often. Rows stay small enough for the first-level caches, and one dimension at
-/// least is left across them.
-/// @param most dimensions to take together, kMostJoinedLanes apart
-/// @returns the grid as it is if nothing can be joined, or if there are tubes
+/// Why: a window of offsets in each dimension is then a window of lanes of the row, so that work done once a
+/// row (to find its groups of actions, and the rows that they lead to) is done once for a plane of cells or
+/// more: on the gridworld of the paper 41 times less often. Rows stay small enough for first-level caches,
+/// and at least one dimension is left across them. The switch is FastPaths::joined_rows.
+/// @param most dimensions along rows; kMostJoinedLanes is a limit beside it
+/// @returns the grid as it is if no dimensions can be joined, or if there are tubes
 [[nodiscard]] UniformGrid join_rows(const Abstraction& abstraction, std::size_t most = SIZE_MAX);
-/// The same as far as it can be told before there are tables; for estimates. @param offsets by state
+/// The same, as far as it is known before there are tables; for estimates. @param offsets [state] of posts
 [[nodiscard]] UniformGrid join_rows(const Model& model, const std::vector<IndexRange>& offsets);
 
-/// As far as windows along a dimension reach beyond its ends, either way.
+/// How far windows along a dimension reach beyond its ends, either way.
 [[nodiscard]] RowMargins window_margins(std::span<const IndexRange> windows, const GridDimension& dimension);
 
 }  // namespace coordreq

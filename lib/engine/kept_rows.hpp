@@ -4,14 +4,14 @@
 #include "engine/cell_set.hpp"
 #include "engine/level_rows.hpp"
 
-// Levels and sets as an archive takes them.
+// Views of levels and sets for an archive.
 namespace coordreq {
 
 /// The cells of levels, without their margins.
 template <class Level>
 [[nodiscard]] NumberRows rows_of(const LevelRows<Level>& levels) {
   if (levels.rows() == 0) return {};
-  NumberRows rows = number_rows(levels.first_place(), levels.stride(), levels.rows(), levels.row_length());
+  NumberRows rows = number_rows(levels.first_slot(), levels.stride(), levels.rows(), levels.row_length());
   if (levels.is_interned()) rows.places = levels.slots().data();
   return rows;
 }

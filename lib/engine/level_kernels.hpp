@@ -5,7 +5,7 @@
 
 namespace coordreq {
 
-/// The instruction sets that the row kernels are built for. Every one gives the same bits.
+/// The instruction sets that the row kernels are built for. All give the same bits.
 enum class InstructionSet : std::uint8_t { portable, avx2, avx512 };
 
 /// Lanes of a row: begin, ..., end - 1.
@@ -18,8 +18,8 @@ struct LaneRange {
 /// Operations on rows of levels: small unsigned integers, one a cell, see LevelRows.
 ///
 /// A row operation works on whole blocks of `kLevelBlock` bytes: @pre unchecked: every row handed in may be
-/// read, and every target written, up to the next multiple of that many bytes after its `n` lanes. What
-/// stands in lanes beyond n is of no meaning. No alignment is asked for; a target may be one of the sources.
+/// read, and every target written, up to the next multiple of that many bytes after its `n` lanes. Levels in
+/// lanes beyond n have no meaning. Rows need not be aligned; a target may be one of the sources.
 template <class Level>
 struct LevelKernels {
   /// out[j] = min over k < count of rows[k][j]. @pre count >= 1
@@ -43,7 +43,7 @@ struct LevelKernels {
   /// Bit j % 64 of bits[j / 64] = whether row[j] is the greatest level, for j < n; further bits of the last
   /// word are 0.
   void (*top_bits)(const Level* row, std::uint64_t* bits, std::size_t n);
-  /// The same, for whether row[j] is above bound[j].
+  /// Bit j % 64 of bits[j / 64] = whether row[j] is above bound[j], likewise.
   void (*above_bits)(const Level* row, const Level* bound, std::uint64_t* bits, std::size_t n);
   /// One step of L <- 1 + min ... : out[j] = 0 where old[j] = 0, else next[j] + 1, and the greatest level
   /// where that is above `limit`. @returns whether out differs from old.

@@ -1,9 +1,10 @@
 // The row kernels, written once over vectors of COORDREQ_VECTOR_BYTES bytes, and built once for each
 // instruction set with that set's compiler flags.
 //
-// Shape: all kernels are bound by loads, so each block of a row is loaded once, combined in registers, and
-// stored once; `minimum` runs over its sources in the inner loop for that reason. Rows have a few hundred
-// bytes and stay in the first-level cache.
+// Why: minima of rows are most of the work. All kernels are bound by loads, so each block of a row is loaded
+// once, combined in registers, and stored once; `minimum` runs over its sources in the inner loop for that
+// reason, four blocks at a time. Rows have a few hundred bytes and stay in the first-level cache. Vectors
+// wider than the portable ones have the switch FastPaths::vector_instructions.
 //
 // Nothing of the standard library is called here: an inline function built with wide instructions could be
 // the copy that the linker keeps for everybody.
@@ -23,7 +24,7 @@ struct Lanes {
   static constexpr size_t kCount = COORDREQ_VECTOR_BYTES / sizeof(Level);
 };
 
-/// Rows need not be aligned. As copies, since clang takes a reference to a vector whose lanes are a
+/// Rows need not be aligned. By copies, since clang takes a reference to a vector whose lanes are a
 /// template's parameter for aligned, whatever its type says.
 template <class Level>
 inline __attribute__((always_inline)) typename Lanes<Level>::Vector load(const Level* row) {
@@ -58,7 +59,7 @@ inline __attribute__((always_inline)) bool any_before(const Vector& v, size_t co
   return false;
 }
 
-/// Blocks side by side share the look at where a source is, and wait for each other less.
+/// Blocks side by side share the load of a source's address, and wait for each other less.
 template <class Level, size_t kBlocks>
 inline __attribute__((always_inline)) void minimum_of_blocks(const Level* const* rows, size_t count, size_t j,
                                                              Level* out) {
@@ -193,8 +194,7 @@ inline __attribute__((always_inline)) uint64_t packed(const uint8_t* lanes, size
   for (size_t i = 0; i < count; i += 8) {
     uint64_t eight = 0;
     __builtin_memcpy(&eight, lanes + i, 8);
-    // Bit i of byte i stays; the product adds all bytes up in its highest one. Little-endian, as the words
-    // are.
+    // Bit i of byte i stays; the product adds up all bytes in its highest one. Little-endian, like the words.
     bits |= ((eight & 0x8040201008040201U) * 0x0101010101010101U >> 56) << i;
   }
   return bits;
@@ -207,7 +207,7 @@ inline __attribute__((always_inline)) uint64_t packed(const Level* lanes, size_t
   return bits;
 }
 
-/// Puts the bits of the lanes from j on, all ones or 0, in their place.
+/// Stores one bit of each lane from j on, lanes being all ones or 0.
 template <class Level>
 inline __attribute__((always_inline)) void put_bits(const typename Lanes<Level>::Vector& lanes, size_t j,
                                                     uint64_t* bits, size_t n) {

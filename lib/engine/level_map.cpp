@@ -13,7 +13,7 @@ std::int64_t decoded(Level level) {
   return level == LevelRows<Level>::kTop ? LevelMap::kTop : static_cast<std::int64_t>(level);
 }
 
-/// Adds the cells of some rows to the counts of their levels.
+/// counts[1 + level] += cells of some rows with that level, counts[0] += cells of the greatest level.
 template <class Level>
 void count_rows(const RowShape& shape, const DifferentRows<Level>& rows, ThreadTeam::Range range,
                 std::vector<std::int64_t>& counts) {
@@ -28,24 +28,25 @@ void count_rows(const RowShape& shape, const DifferentRows<Level>& rows, ThreadT
   });
 }
 
-/// 8-bit levels need no look at the size; four counters a level, so that equal neighbours do not wait for
+/// For 8 bits counters have a fixed size; there are four a level, so that equal neighbours do not wait for
 /// each other.
 void count_rows(const RowShape& shape, const DifferentRows<std::uint8_t>& rows, ThreadTeam::Range range,
                 std::vector<std::int64_t>& counts) {
-  std::array<std::array<std::int64_t, 256>, 4> part{};
+  std::array<std::array<std::int64_t, 256>, 4> counters{};
   rows.for_each(range, [&](const std::uint8_t* row, std::int64_t times) {
     shape.for_each_run([&](std::int64_t lane, std::int64_t count) {
       const std::uint8_t* cells = row + lane;
-      for (std::int64_t c = 0; c < count; ++c) part[static_cast<std::size_t>(c % 4)][cells[c]] += times;
+      for (std::int64_t c = 0; c < count; ++c) counters[static_cast<std::size_t>(c % 4)][cells[c]] += times;
     });
   });
   counts.resize(256, 0);
   for (std::size_t level = 0; level < 256; ++level) {
-    counts[(level + 1) % 256] += part[0][level] + part[1][level] + part[2][level] + part[3][level];
+    counts[(level + 1) % 256] +=
+        counters[0][level] + counters[1][level] + counters[2][level] + counters[3][level];
   }
 }
 
-/// [1 + level] cells of that level, [0] those never lost.
+/// [1 + level] cells of that level, [0] cells never lost.
 template <class Level>
 std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTeam& team) {
   constexpr std::int64_t kGrain = 1024;
@@ -55,9 +56,9 @@ std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTea
     count_rows(levels.shape(), rows, range, counts[static_cast<std::size_t>(worker)]);
   });
   std::vector<std::int64_t> total(1, 0);
-  for (const std::vector<std::int64_t>& own : counts) {
-    if (own.size() > total.size()) total.resize(own.size(), 0);
-    for (std::size_t k = 0; k < own.size(); ++k) total[k] += own[k];
+  for (const std::vector<std::int64_t>& one : counts) {
+    if (one.size() > total.size()) total.resize(one.size(), 0);
+    for (std::size_t k = 0; k < one.size(); ++k) total[k] += one[k];
   }
   if (levels.share() != nullptr) {
     Ranks& ranks = levels.share()->ranks();
@@ -68,7 +69,7 @@ std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTea
   return total;
 }
 
-/// The lanes of a row that are cells, if there are gaps: these hold what lies beyond the ends of runs.
+/// The lanes of a row that are cells; nothing if all are, as the row has no gaps.
 std::optional<CellSet> cells_of_row(const RowShape& shape, std::int64_t row_length) {
   if (shape.dimensions.size() == 1) return std::nullopt;
   CellSet cells(1, row_length);

@@ -11,10 +11,10 @@
 
 namespace coordreq {
 
-/// LevelRows of whatever width its finite levels need.
+/// LevelRows of the width that their finite levels need.
 class LevelMap {
  public:
-  /// Instead of the greatest level of the width in use.
+  /// Stands for the greatest level of whatever width is in use.
   static constexpr std::int64_t kTop = -1;
 
   LevelMap() = default;
@@ -45,12 +45,13 @@ class LevelMap {
   }
   /// Level of a cell (row-major linear index), kTop if it is never lost.
   [[nodiscard]] std::int64_t at(std::int64_t cell) const;
-  /// Number of cells of each finite level 0, 1, ... up to the greatest that occurs, and of those never lost.
-  /// Of all processes together, as histogram() is called.
+  /// Number of cells of each finite level 0, 1, ... up to the greatest that occurs, and of the cells never
+  /// lost, of all processes.
   struct Histogram {
     std::vector<std::int64_t> finite;
     std::int64_t top = 0;
   };
+  /// Together.
   [[nodiscard]] Histogram histogram(ThreadTeam& team) const;
   /// The cells with level kTop, in the rows that this process holds.
   [[nodiscard]] CellSet top_cells(ThreadTeam& team) const;

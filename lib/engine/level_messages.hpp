@@ -10,7 +10,7 @@
 
 namespace coordreq {
 
-/// What messages say of the cells of levels: all lanes of a row.
+/// Messages with rows of levels: all lanes of each.
 template <class Level>
 class LevelMessages {
  public:
@@ -22,16 +22,17 @@ class LevelMessages {
     REQUIRES(levels.share() != nullptr);
   }
 
+  /// The rows that a peer holds and for which is_sent(row) is true.
   template <class IsSent>
   [[nodiscard]] Bytes message(const RowShare::Peer& peer, const IsSent& is_sent) const {
     return rows_message(peer, is_sent, [this](std::int64_t row) { return bytes_of(row); });
   }
-  /// @param put is given the number of a row and its levels, in whole blocks
+  /// Reads a message. @param put called with the number of each row and its levels, in whole blocks
   template <class Put>
   void take(const Bytes& message, const Put& put) {
     take_rows(message, lanes_ * sizeof(Level), putting(put));
   }
-  /// exchange_row_bytes() of these.
+  /// exchange_row_bytes() of these messages.
   template <class IsSent, class Put>
   void exchange(const IsSent& is_sent, const Put& put) {
     exchange_row_bytes(

@@ -10,30 +10,35 @@
 #include "base/requires.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
+#include "engine/interner.hpp"
 #include "engine/level_kernels.hpp"
 #include "engine/list_numbers.hpp"
 #include "engine/row_shape.hpp"
-#include "engine/slot_book.hpp"
 #include "ranks/row_share.hpp"
 
 namespace coordreq {
 
-/// One level a cell, in rows, each continued beyond its ends, and those of the runs in it, by what a post
-/// meets there.
+/// One level a cell, in rows, each continued beyond its ends, and the ends of the runs in it, by the levels
+/// that a post meets there.
 ///
 /// A level says how long a cell stays in a decreasing sequence of sets: 0 outside the first of them, i if it
 /// is in the first i, and `kTop` if it is never lost (as far as is known). Min and max over levels are AND
 /// and OR over all sets of the sequence at once.
 ///
-/// 8 bits are enough for most problems; Level is the narrowest of 8, 16, 32 bits that all finite levels fit
-/// into.
+/// Rows that are equal may be *interned*: held once, in a *slot*. Memory is reserved for all rows all the
+/// same, but the system gives only pages that are written. Where several processes share the work each has
+/// the rows of all of them, of which only those that it holds mean something and take memory (RowShare).
 ///
-/// Rows that are equal may be *interned*: held once. Memory for all rows is asked for all the same, but what
-/// is not used the system never gives. Nobody writes to a row where it stands: change_row() and put() see to
-/// it that a row held once is changed for one alone.
+/// Threads: any number may read while nobody writes. Different threads may write different rows; interned
+/// rows are written by one thread at a time. make_ready() is for any number of threads at any time.
 ///
-/// Where several processes share the work each has rows of all of them, of which only those that it holds
-/// mean something and take memory (RowShare).
+/// 1. A row that was written is *closed*: its margins and gaps follow from its cells. Interned rows are
+///    closed from the start.
+/// 2. Interned rows are equal exactly if they stand in the same slot.
+/// 3. A slot in which rows stand is not written: a row that changes moves to another one. So row(r) is
+///    valid until row r is written.
+/// 4. The stride is a multiple of 16 bytes, and from any lane of a row a whole block (kLevelBlock bytes)
+///    may be read.
 template <class Level>
 class LevelRows {
  public:
@@ -52,15 +57,15 @@ class LevelRows {
         margins_(shape_.margins()) {
     constexpr std::int64_t kAlign = 16 / static_cast<std::int64_t>(sizeof(Level));
     stride_ = (margins_.before + length_ + margins_.after + kAlign - 1) / kAlign * kAlign;
-    // A row that is put takes a place before the one that stood there leaves its own.
+    // One slot more than rows: a row that is put takes a new slot before it leaves its old one.
     const auto size = static_cast<std::size_t>((rows + 1) * stride_) + kLevelBlock / sizeof(Level);
     levels_ = ZeroedArray<Level>(size);
     if (!interned || rows == 0) return;
     lanes_.assign(static_cast<std::size_t>(stride_), 0);
     Level* const first = levels_.data() + margins_.before;
     close_row(first);
-    slots_.assign(static_cast<std::size_t>(rows), book_.add(hash_of(first)));
-    book_.hold(0, rows - 1);
+    slots_.assign(static_cast<std::size_t>(rows), interner_.add(hash_of(first)));
+    interner_.hold(0, rows - 1);
   }
 
   LevelRows(LevelRows&&) noexcept = default;
@@ -80,7 +85,7 @@ class LevelRows {
   /// Levels from one row to the next.
   [[nodiscard]] std::int64_t stride() const { return stride_; }
 
-  /// What is asked for.
+  /// Bytes reserved.
   [[nodiscard]] std::size_t bytes() const {
     return (static_cast<std::size_t>((rows_ + 1) * stride_) + kLevelBlock / sizeof(Level)) * sizeof(Level);
   }
@@ -88,12 +93,12 @@ class LevelRows {
   [[nodiscard]] bool is_interned() const { return !slots_.empty(); }
   /// First cell of a row; margins().before levels stand before it, margins().after after its last.
   [[nodiscard]] const Level* row(std::int64_t r) const { return at(slot(r)); }
-  /// The row in the first place, and [row] in which place a row stands; empty: each in its own.
-  [[nodiscard]] const Level* first_place() const { return at(0); }
+  /// First cell of slot 0; slots follow one another at stride().
+  [[nodiscard]] const Level* first_slot() const { return at(0); }
+  /// [row] its slot; empty: rows are not interned, and row r stands in slot r.
   [[nodiscard]] const std::vector<std::uint32_t>& slots() const { return slots_; }
 
-  /// Calls `change(cells)`, which may write to the cells of a row, and gives margins to what it leaves. By
-  /// one thread at a time if rows are interned.
+  /// Calls `change(cells)`, which may write to the cells of a row, and closes the row.
   template <class Change>
   void change_row(std::int64_t r, const Change& change) {
     if (!is_interned()) {
@@ -105,37 +110,37 @@ class LevelRows {
     change(lanes_.data() + margins_.before);
     put_ready(r, lanes_.data(), make_ready(lanes_.data()));
   }
-  /// Gives a row these cells, and margins to them. By one thread at a time if rows are interned.
-  /// @param cells whole blocks may be read; what gaps hold does not matter
+  /// Gives a row these cells, and closes it.
+  /// @param cells whole blocks may be read; levels in gaps do not matter
   void put(std::int64_t r, const Level* cells) {
-    change_row(r, [&](Level* own) { std::copy_n(cells, length_, own); });
+    change_row(r, [&](Level* target) { std::copy_n(cells, length_, target); });
   }
-  /// put() in two parts, of which the first is for any number of threads: gives margins to the cells of a row
-  /// that stands elsewhere. @param lanes stride() of them, margins().before before the first cell
-  /// @returns what put_ready() is to know
+  /// put() in two steps, the first: closes a row that stands outside this object.
+  /// @param lanes stride() of them, margins().before before the first cell
+  /// @returns the hash that put_ready() takes
   [[nodiscard]] std::uint64_t make_ready(Level* lanes) const {
     close_row(lanes + margins_.before);
     return is_interned() ? hash_of(lanes + margins_.before) : 0;
   }
+  /// put() in two steps, the second. @param lanes after make_ready(), which returned `hash`
   void put_ready(std::int64_t r, const Level* lanes, std::uint64_t hash) {
     if (!is_interned()) {
       std::copy_n(lanes, stride_, levels_.data() + r * stride_);
       return;
     }
-    const Level* const own = lanes + margins_.before;
+    const Level* const cells = lanes + margins_.before;
     const auto cells_bytes = static_cast<std::size_t>(length_) * sizeof(Level);
-    std::uint32_t place =
-        book_.find(hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), own, cells_bytes) == 0; });
-    if (place != SlotBook::kNone) {
-      book_.hold(place);
+    std::uint32_t target = interner_.find(
+        hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, cells_bytes) == 0; });
+    if (target != Interner::kNone) {
+      interner_.hold(target);
     } else {
-      place = book_.add(hash);
-      std::copy_n(lanes, stride_, levels_.data() + place * stride_);
+      target = interner_.add(hash);
+      std::copy_n(lanes, stride_, levels_.data() + target * stride_);
     }
-    move_to(r, place);
+    move_to(r, target);
   }
-  /// Makes a row equal to another one. @returns whether it was not. By one thread at a time if rows are
-  /// interned.
+  /// Makes a row equal to another one. @returns whether it was not.
   bool copy_row(std::int64_t from, std::int64_t to) {
     if (!is_interned()) {
       const Level* const source = levels_.data() + from * stride_;
@@ -144,22 +149,21 @@ class LevelRows {
       std::copy_n(source, stride_, target);
       return true;
     }
-    const std::uint32_t place = slots_[static_cast<std::size_t>(from)];
-    if (slots_[static_cast<std::size_t>(to)] == place) return false;
-    book_.hold(place);
-    move_to(to, place);
+    const std::uint32_t target = slots_[static_cast<std::size_t>(from)];
+    if (slots_[static_cast<std::size_t>(to)] == target) return false;
+    interner_.hold(target);
+    move_to(to, target);
     return true;
   }
-  /// Equal numbers mean equal rows, and different ones different rows; as long as renumber() is not called.
-  /// @pre rows are interned
+  /// A number for what a row holds: equal numbers mean equal rows, and different numbers different rows, also
+  /// at different times, until renumber() is called. @pre rows are interned
   [[nodiscard]] std::uint32_t content(std::int64_t r) const {
     REQUIRES(is_interned());
-    return book_.content(slots_[static_cast<std::size_t>(r)]);
+    return interner_.content(slots_[static_cast<std::size_t>(r)]);
   }
-  void renumber() { book_.renumber(); }
+  void renumber() { interner_.renumber(); }
 
-  /// Makes the cells of a set in the rows [begin, end) the greatest level, others 0, margins included; as
-  /// put() does.
+  /// Puts rows [begin, end) that have the greatest level in the cells of a set, and 0 in others.
   void assign(const CellSet& set, std::int64_t begin, std::int64_t end) {
     const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
     // By way of a buffer: the kernel writes whole blocks, beyond the row.
@@ -170,8 +174,8 @@ class LevelRows {
     }
   }
 
-  /// Brings the margins and gaps of a row of this layout that stands elsewhere up to date with its cells.
-  void close_row(Level* cells) const { close_part(cells, 0); }
+  /// Closes a row of this layout that stands outside this object.
+  void close_row(Level* cells) const { close_from(cells, 0); }
 
   /// Sets the gaps of a row, or of a copy of it, to 0.
   void clear_gaps(Level* cells) const {
@@ -185,17 +189,17 @@ class LevelRows {
   }
 
  private:
-  /// The part of a row along the dimensions from k on that begins at `cells`.
-  void close_part(Level* cells, std::size_t k) const {
+  /// Closes the lanes along the dimensions from k on that begin at `cells`.
+  void close_from(Level* cells, std::size_t k) const {
     const RowDimension& dimension = shape_.dimensions[k];
     if (k + 1 == shape_.dimensions.size()) return close_run(cells, dimension);
-    for (std::int64_t i = 0; i < dimension.count; ++i) close_part(cells + i * dimension.stride, k + 1);
-    for (std::int64_t i = -dimension.margins.before; i < 0; ++i) continue_part(cells, k, i);
-    for (std::int64_t i = 0; i < dimension.margins.after; ++i) continue_part(cells, k, dimension.count + i);
+    for (std::int64_t i = 0; i < dimension.count; ++i) close_from(cells + i * dimension.stride, k + 1);
+    for (std::int64_t i = -dimension.margins.before; i < 0; ++i) continue_at(cells, k, i);
+    for (std::int64_t i = 0; i < dimension.margins.after; ++i) continue_at(cells, k, dimension.count + i);
   }
 
-  /// Fills in what stands at an index beyond the ends, over all lanes of the dimensions after k.
-  void continue_part(Level* cells, std::size_t k, std::int64_t index) const {
+  /// Fills the lanes of an index of dimension k beyond its ends, over all dimensions after k.
+  void continue_at(Level* cells, std::size_t k, std::int64_t index) const {
     const RowDimension& dimension = shape_.dimensions[k];
     std::int64_t before = 0;
     std::int64_t after = 1;
@@ -204,18 +208,18 @@ class LevelRows {
       before += other.margins.before * other.stride;
       after += (other.count - 1 + other.margins.after) * other.stride;
     }
-    Level* const part = cells + index * dimension.stride;
+    Level* const target = cells + index * dimension.stride;
     const OutsideTraits& rule = traits(index < 0 ? dimension.ends.below : dimension.ends.above);
     if (rule.is_open()) {
-      std::fill(part - before, part + after, rule.arrives ? kTop : Level{0});
-      // What leaves safely here may leave through an unsafe side there.
-      if (rule.arrives) close_part(part, k + 1);
+      std::fill(target - before, target + after, rule.arrives ? kTop : Level{0});
+      // A post that leaves safely in this dimension may leave through an unsafe side in one after it.
+      if (rule.arrives) close_from(target, k + 1);
       return;
     }
     const std::int64_t n = dimension.count;
     const std::int64_t source = rule.wraps ? (index % n + n) % n : (index < 0 ? 0 : n - 1);
     const Level* const other = cells + source * dimension.stride;
-    std::copy(other - before, other + after, part - before);
+    std::copy(other - before, other + after, target - before);
   }
 
   static void close_run(Level* cells, const RowDimension& run) {
@@ -240,10 +244,10 @@ class LevelRows {
   [[nodiscard]] const Level* at(std::int64_t slot) const {
     return levels_.data() + slot * stride_ + margins_.before;
   }
-  void move_to(std::int64_t r, std::uint32_t place) {
-    std::uint32_t& own = slots_[static_cast<std::size_t>(r)];
-    book_.drop(own);
-    own = place;
+  void move_to(std::int64_t r, std::uint32_t target) {
+    std::uint32_t& slot = slots_[static_cast<std::size_t>(r)];
+    interner_.drop(slot);
+    slot = target;
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
@@ -269,8 +273,8 @@ class LevelRows {
   std::int64_t stride_ = 0;
   ZeroedArray<Level> levels_;
   std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not interned
-  SlotBook book_;
-  std::vector<Level> lanes_;  ///< the row to be put, with its margins
+  Interner interner_;
+  std::vector<Level> lanes_;  ///< the row being put, with its margins; only if rows are interned
 };
 
 }  // namespace coordreq

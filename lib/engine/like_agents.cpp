@@ -4,16 +4,16 @@
 
 #include "base/fast_paths.hpp"
 #include "base/index.hpp"
-#include "base/merger.hpp"
-#include "engine/row_mirror.hpp"
+#include "base/union_find.hpp"
+#include "engine/row_symmetry.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Sets of dimensions of which none moves, or is moved by, one of another set.
-Merger find_components(const Abstraction& abstraction) {
-  Merger components(abstraction.tables.size());
+/// Dimensions are in one set if one of them depends on the other, directly or by way of others.
+UnionFind find_components(const Abstraction& abstraction) {
+  UnionFind components(abstraction.tables.size());
   for (const auto* tables : {&abstraction.tables, &abstraction.tubes}) {
     for (std::size_t t = 0; t < tables->size(); ++t) {
       for (const std::int32_t state : (*tables)[t].states) components.merge(t, at(state));
@@ -22,9 +22,9 @@ Merger find_components(const Abstraction& abstraction) {
   return components;
 }
 
-/// Table `a` says of an agent what table `b` says of the other one.
+/// Whether table `a` is table `b` with the two agents exchanged.
 bool are_alike(const Abstraction& abstraction, const TransitionTable& a, const TransitionTable& b,
-               const AgentPart& one, const AgentPart& other) {
+               const AbstractAgent& one, const AbstractAgent& other) {
   if (a.is_sum() || b.is_sum() || a.shift != b.shift || a.before != 0 || b.before != 0) return false;
   if (a.entries.size() != b.entries.size()) return false;
   std::vector<std::int64_t> counts, strides, other_strides;
@@ -61,8 +61,8 @@ bool are_alike(const GridDimension& a, const GridDimension& b) {
   return a.count == b.count && a.below == b.below && a.above == b.above;
 }
 
-/// With their dimensions, and inputs, in this order.
-bool are_alike(const Abstraction& abstraction, const AgentPart& a, const AgentPart& b) {
+/// Whether the agents match, their dimensions and inputs being taken in this order.
+bool are_alike(const Abstraction& abstraction, const AbstractAgent& a, const AbstractAgent& b) {
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
     const auto points = [&](std::int32_t input) { return abstraction.inputs[at(input)].count(); };
     if (points(a.inputs[i]) != points(b.inputs[i])) return false;
@@ -79,73 +79,75 @@ bool are_alike(const Abstraction& abstraction, const AgentPart& a, const AgentPa
   return true;
 }
 
-/// More dimensions of one agent are not tried in all orders.
+/// Agents with more dimensions are not compared: there are too many orders.
 constexpr std::size_t kMostDimensions = 6;
 
 }  // namespace
 
-std::optional<AgentPart> part_like(const Abstraction& abstraction, const AgentPart& one,
-                                   const AgentPart& other) {
+std::optional<AbstractAgent> agent_like(const Abstraction& abstraction, const AbstractAgent& one,
+                                        const AbstractAgent& other) {
   if (one.dimensions.empty() || one.dimensions.size() > kMostDimensions ||
       one.dimensions.size() != other.dimensions.size() || one.inputs.size() != other.inputs.size())
     return std::nullopt;
-  AgentPart part = other;
-  std::ranges::sort(part.dimensions);
+  AbstractAgent agent = other;
+  std::ranges::sort(agent.dimensions);
   do {
-    if (are_alike(abstraction, one, part)) return part;
-  } while (std::ranges::next_permutation(part.dimensions).found);
+    if (are_alike(abstraction, one, agent)) return agent;
+  } while (std::ranges::next_permutation(agent.dimensions).found);
   return std::nullopt;
 }
 
-std::vector<AgentPart> parts_of_agents(const Abstraction& abstraction,
-                                       const std::vector<std::vector<std::int32_t>>& inputs) {
-  const Merger components = find_components(abstraction);
+std::vector<AbstractAgent> abstract_agents(const Abstraction& abstraction,
+                                           const std::vector<std::vector<std::int32_t>>& inputs) {
+  const UnionFind components = find_components(abstraction);
   const std::size_t dimensions = abstraction.tables.size();
   const auto uses = [&](std::size_t d, const auto& test) {
     return std::ranges::any_of(abstraction.tables[d].inputs, test) ||
            (!abstraction.tubes.empty() && std::ranges::any_of(abstraction.tubes[d].inputs, test));
   };
-  std::vector<AgentPart> parts;
-  for (const std::vector<std::int32_t>& own : inputs) {
-    const auto is_own = [&own](std::int32_t input) { return contains(own, input); };
-    const auto is_of_others = [&own](std::int32_t input) { return !contains(own, input); };
+  std::vector<AbstractAgent> agents;
+  for (const std::vector<std::int32_t>& of_agent : inputs) {
+    const auto is_own = [&of_agent](std::int32_t input) { return contains(of_agent, input); };
+    const auto is_of_others = [&of_agent](std::int32_t input) { return !contains(of_agent, input); };
     std::vector<std::uint8_t> is_moved(dimensions, 0), is_shared(dimensions, 0);  // [root]
     for (std::size_t d = 0; d < dimensions; ++d) {
       if (uses(d, is_own)) is_moved[components.root(d)] = 1;
       if (uses(d, is_of_others)) is_shared[components.root(d)] = 1;
     }
-    AgentPart& part = parts.emplace_back(AgentPart{own, {}});
+    AbstractAgent& agent = agents.emplace_back(AbstractAgent{of_agent, {}});
     bool is_apart = true;
     for (std::size_t d = 0; d < dimensions; ++d) {
       if (is_moved[components.root(d)] == 0) continue;
       is_apart = is_apart && is_shared[components.root(d)] == 0;
-      part.dimensions.push_back(d);
+      agent.dimensions.push_back(d);
     }
-    if (!is_apart) part.dimensions.clear();
+    if (!is_apart) agent.dimensions.clear();
   }
-  return parts;
+  return agents;
 }
 
-std::vector<AgentPart> find_like_agents(const Abstraction& abstraction, std::span<const AgentPart> parts,
-                                        std::span<const CellSet* const> sets) {
-  const auto is_across = [&](const AgentPart& part) {
-    return !part.dimensions.empty() &&
-           std::ranges::all_of(part.dimensions, [&](std::size_t d) { return d < abstraction.grid.across(); });
+std::vector<AbstractAgent> find_like_agents(const Abstraction& abstraction,
+                                            std::span<const AbstractAgent> agents,
+                                            std::span<const CellSet* const> sets) {
+  const auto is_across = [&](const AbstractAgent& agent) {
+    return !agent.dimensions.empty() && std::ranges::all_of(agent.dimensions, [&](std::size_t d) {
+      return d < abstraction.grid.across();
+    });
   };
-  std::vector<AgentPart> most;
+  std::vector<AbstractAgent> most;
   if (!fast_paths().like_agents) return most;
-  std::vector<std::uint8_t> is_known(parts.size(), 0);
-  // Being alike is transitive, so that each agent is in one set of such.
-  for (std::size_t a = 0; a < parts.size(); ++a) {
-    if (is_known[a] != 0 || !is_across(parts[a])) continue;
-    std::vector<AgentPart> like{parts[a]};
-    for (std::size_t b = a + 1; b < parts.size() && like.size() < RowMirror::kMostAgents; ++b) {
-      if (is_known[b] != 0 || !is_across(parts[b])) continue;
-      std::optional<AgentPart> part = part_like(abstraction, parts[a], parts[b]);
-      if (!part) continue;
-      const RowMirror mirror(abstraction.grid, {parts[a].dimensions, part->dimensions});
-      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return mirror.is_same(*set); })) continue;
-      like.push_back(*std::move(part));
+  std::vector<std::uint8_t> is_known(agents.size(), 0);
+  // Being alike is transitive, so that each agent is in one set of like agents.
+  for (std::size_t a = 0; a < agents.size(); ++a) {
+    if (is_known[a] != 0 || !is_across(agents[a])) continue;
+    std::vector<AbstractAgent> like{agents[a]};
+    for (std::size_t b = a + 1; b < agents.size() && like.size() < RowSymmetry::kMostAgents; ++b) {
+      if (is_known[b] != 0 || !is_across(agents[b])) continue;
+      std::optional<AbstractAgent> agent = agent_like(abstraction, agents[a], agents[b]);
+      if (!agent) continue;
+      const RowSymmetry symmetry(abstraction.grid, {agents[a].dimensions, agent->dimensions});
+      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return symmetry.keeps(*set); })) continue;
+      like.push_back(*std::move(agent));
       is_known[b] = 1;
     }
     if (like.size() > std::max<std::size_t>(1, most.size())) most = std::move(like);

@@ -3,36 +3,38 @@
 #include <cstddef>
 #include <cstdint>
 
-// How far the engine goes in keeping what it could find anew; estimates of memory need them too.
+// Limits up to which the engine keeps results that it could find anew; estimates of memory use them too.
 namespace coordreq {
 
-/// Above so many actions in all choices of states groups are found anew for each row.
+/// With more actions than this, over all choices of states, groups are found anew for each row.
 inline constexpr std::int64_t kMostSharedActions = std::int64_t{1} << 24;
 
 /// With more groups than this, comparing each with each costs more than it saves.
 inline constexpr std::int64_t kMostComparedGroups = 128;
 
-/// Choices of states up to which the groups of so many actions are shared.
+/// Number of choices of states up to which the groups of a class with so many actions are shared.
 [[nodiscard]] constexpr std::int64_t most_shared_choices(std::int64_t actions) {
   const std::int64_t compared = actions < kMostComparedGroups ? actions : kMostComparedGroups;
   return kMostSharedActions / (actions + compared * compared / 4);
 }
 
-/// Choices of states whose groups are found before equal ones are thrown away: there may be thousands of
-/// choices, and groups that are compared take some kilobytes.
+/// Choices of states whose groups are found at once, before equal groups are thrown away: there may be
+/// thousands of choices, and groups that are compared take some kilobytes.
 inline constexpr std::int64_t kGroupsFoundAtOnce = 256;
 
-/// All minima that one thread shares between the rows of a unit: so that they stay in the second-level cache.
+/// Bytes of the minima that one thread shares between the rows of a unit: they stay in the second-level
+/// cache.
 inline constexpr std::int64_t kSharedBytes = std::int64_t{1} << 20;
 
-/// All eroded blocks of one thread together; a unit of the aircraft needs 41 of 0.1 MiB.
-inline constexpr std::size_t kBlockBytes = std::size_t{1} << 24;
+/// Bytes of the eroded patches of one thread; a unit of the aircraft needs 41 patches of 0.1 MiB.
+inline constexpr std::size_t kPatchBytes = std::size_t{1} << 24;
 
-/// Blocks of one thread that are eroded by a single size, for bounds of several choices.
-inline constexpr std::size_t kJoinedBlocks = 128;
+/// Number of patches of one thread that are eroded by a single size, for bounds of several choices.
+inline constexpr std::size_t kJoinedPatches = 128;
 
-/// By how many indices such a block's size may be wider than the widest box of one choice, on a side of so
-/// many: blocks have room for it beyond the domain, which must not cost more than it saves.
+/// By how many indices a bound's box may be wider than the widest box of one choice, in a dimension of
+/// `count` indices: patches have room for such boxes beyond the domain, which must not cost more than bounds
+/// save.
 [[nodiscard]] constexpr std::int32_t most_wider(std::int32_t count) {
   return count < 32 ? count / 8 : 4;
 }

@@ -8,14 +8,14 @@
 
 namespace coordreq {
 
-/// One number mixed into a hash.
+/// A hash with one more number mixed in.
 [[nodiscard]] inline std::uint64_t mixed_hash(std::uint64_t hash, std::uint64_t number) {
   hash = (hash ^ number) * 0x9E3779B97F4A7C15U;
   return hash ^ hash >> 32U;
 }
 
-/// Different lists of numbers, each held once and numbered 0, 1, ... in the order in which they first came.
-/// Lists are compared, not only their hashes.
+/// Interns lists of numbers: each different list is held once; lists are numbered 0, 1, ... in the order in
+/// which they first came. Lists are compared, not their hashes alone.
 template <class Number>
 class ListNumbers {
  public:
@@ -31,13 +31,13 @@ class ListNumbers {
       const std::uint32_t known = slots_[slot];
       if (hashes_[known] == hash && std::ranges::equal((*this)[known], list)) return known;
     }
-    const std::uint32_t own = size();
-    slots_[slot] = own;
+    const std::uint32_t added = size();
+    slots_[slot] = added;
     hashes_.push_back(hash);
     numbers_.insert(numbers_.end(), list.begin(), list.end());
     ends_.push_back(numbers_.size());
     if (2 * std::size_t{size()} > slots_.size()) grow();
-    return own;
+    return added;
   }
   [[nodiscard]] List operator[](std::uint32_t number) const {
     const std::size_t begin = number == 0 ? 0 : ends_[number - 1];

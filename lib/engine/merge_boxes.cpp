@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-/// Joins b to a if the union is a box. @returns false if it is none
+/// a = the union of a and b, if the union is a box. @returns whether it is
 bool join(std::span<IndexRange> a, std::span<const IndexRange> b, std::span<const std::int64_t> longest) {
   std::size_t different = a.size();
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -26,9 +26,9 @@ struct BoxList {
 /// True if `a` lies in `b` in every dimension.
 [[nodiscard]] bool is_inside(std::span<const IndexRange> a, std::span<const IndexRange> b);
 
-/// Makes fewer boxes with the same union: leaves out those inside another, and joins two that differ in one
-/// dimension only and leave no gap there. Not the fewest possible.
-/// @param longest by dimension, no range gets longer than this (a ring must not overlap itself)
+/// Replaces boxes by fewer with the same union: removes boxes inside another, and joins two that differ in
+/// one dimension only and leave no gap there. Not the fewest possible.
+/// @param longest [dimension] no range gets longer than this (on a ring a range must not overlap itself)
 void merge_boxes(BoxList& boxes, std::span<const std::int64_t> longest);
 
 }  // namespace coordreq

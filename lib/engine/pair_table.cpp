@@ -22,8 +22,8 @@ Word transposed(Word bits) {
   return bits ^ swap ^ (swap << 28U);
 }
 
-/// The sets of the cells of one row turned into a row of cells for each joint input; `out` has room for a
-/// multiple of 8 of them.
+/// Turns the sets of joint inputs of the cells of one row into a row of cells for each joint input.
+/// @param out [joint input, up to a multiple of 8][word]
 void turn_row(const std::uint8_t* cells, std::int64_t row_length, std::int64_t bytes, std::size_t words,
               std::vector<Word>& out) {
   out.assign(static_cast<std::size_t>(bytes) * 8 * words, 0);
@@ -32,12 +32,12 @@ void turn_row(const std::uint8_t* cells, std::int64_t row_length, std::int64_t b
     const auto word = static_cast<std::size_t>(first / CellSet::kWordBits);
     const auto shift = static_cast<unsigned>(first % CellSet::kWordBits);
     for (std::int64_t b = 0; b < bytes; ++b) {
-      Word block = 0;
-      for (std::int64_t x = 0; x < count; ++x) block |= Word{cells[(first + x) * bytes + b]} << (8 * x);
-      if (block == 0) continue;
-      block = transposed(block);
+      Word square = 0;
+      for (std::int64_t x = 0; x < count; ++x) square |= Word{cells[(first + x) * bytes + b]} << (8 * x);
+      if (square == 0) continue;
+      square = transposed(square);
       for (std::size_t u = 0; u < 8; ++u) {
-        out[(static_cast<std::size_t>(b) * 8 + u) * words + word] |= (block >> (8 * u) & 0xFFU) << shift;
+        out[(static_cast<std::size_t>(b) * 8 + u) * words + word] |= (square >> (8 * u) & 0xFFU) << shift;
       }
     }
   }
@@ -66,25 +66,25 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
 
   const std::size_t words = words_for(grid);
   const std::int64_t bytes = listed.bytes_per_cell();
-  std::vector<std::vector<Word>> turned(64);  // so many rows at a time: turning is work for all threads
-  const auto block = static_cast<std::int64_t>(turned.size());
-  for (std::int64_t first = rows.begin; first < rows.end; first += block) {
-    const std::int64_t count = std::min(block, rows.end - first);
+  std::vector<std::vector<Word>> turned(64);  // rows are turned in batches, by all threads
+  const auto batch = static_cast<std::int64_t>(turned.size());
+  for (std::int64_t first = rows.begin; first < rows.end; first += batch) {
+    const std::int64_t count = std::min(batch, rows.end - first);
     team.for_each(count, 4, [&](ThreadTeam::Range range, int) {
       for (std::int64_t r = range.begin; r < range.end; ++r) {
-        std::vector<Word>& own = turned[static_cast<std::size_t>(r)];
+        std::vector<Word>& bits = turned[static_cast<std::size_t>(r)];
         turn_row(listed.bytes.data() + (first + r) * grid.row_length() * bytes, grid.row_length(), bytes,
-                 words, own);
+                 words, bits);
         for (std::int64_t u = 0; permitted != nullptr && u < inputs.count(); ++u) {
           const ConstRow cells = permitted->row(first + r, u);
-          for (std::size_t w = 0; w < words; ++w) own[static_cast<std::size_t>(u) * words + w] &= cells[w];
+          for (std::size_t w = 0; w < words; ++w) bits[static_cast<std::size_t>(u) * words + w] &= cells[w];
         }
       }
     });
     for (std::int64_t r = 0; r < count; ++r) {
-      const Word* own = turned[static_cast<std::size_t>(r)].data();
-      for (std::int64_t u = 0; u < inputs.count(); ++u, own += words)
-        ids_.push_back(rows_.number({own, words}));
+      const Word* bits = turned[static_cast<std::size_t>(r)].data();
+      for (std::int64_t u = 0; u < inputs.count(); ++u, bits += words)
+        ids_.push_back(rows_.number({bits, words}));
     }
   }
 }

@@ -12,22 +12,22 @@
 
 namespace coordreq {
 
-/// Pairs of states and joint inputs that are kept: one bit row along the last state dimension for each
-/// choice of the other states and the inputs in use, equal rows held once. Laid out as ConditionTable is, of
-/// which some leading rows may be left out.
+/// A set of pairs of states and joint inputs: one row of bits along the last state dimension for each choice
+/// of the other states and the inputs in use, equal rows held once. Laid out like ConditionTable, perhaps
+/// without rows at its beginning and end.
 class PairTable {
  public:
-  /// What a condition permits.
+  /// The pairs that a condition permits.
   explicit PairTable(const ConditionTable& allow);
-  /// What is listed, and permitted by a condition too. It depends on all states and inputs.
-  /// @param permitted by the condition; may be null: everything
-  /// @param rows of the grid that it is asked for
+  /// The listed pairs that are permitted too. The table depends on all states and inputs.
+  /// @param permitted by a condition; null: all pairs
+  /// @param rows of the grid that the table is for
   /// @pre `listed` is over the cells of `grid` in its order, and over all joint inputs.
   /// @pre unchecked: grid and inputs outlive this object
   PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
             const PairTable* permitted, ThreadTeam::Range rows, ThreadTeam& team);
 
-  /// The bits at a position of the table, of those that there are.
+  /// The bits at a position, counted from the first that the table has.
   [[nodiscard]] ConstRow row(std::int64_t position) const {
     return rows_[ids_[static_cast<std::size_t>(position)]];
   }
@@ -46,12 +46,12 @@ class PairTable {
   std::vector<std::uint32_t> ids_;
 };
 
-/// What is said of pairs of states and joint inputs.
+/// Which pairs of states and joint inputs a spec permits, and a controller file lists.
 struct PairRules {
-  std::optional<PairTable> permitted;  ///< by `allow`, which forbids all else; none: nothing is forbidden
-  std::optional<PairTable> listed;  ///< of these those that a controller file lists; none: there is no file
+  std::optional<PairTable> permitted;  ///< by `allow`; nothing: all pairs are
+  std::optional<PairTable> listed;     ///< of these, those in a controller file; nothing: there is no file
 
-  /// The pairs that a controller may have, or null: all.
+  /// The pairs that a controller may have; null: all pairs.
   [[nodiscard]] const PairTable* admissible() const {
     return listed ? &*listed : permitted ? &*permitted : nullptr;
   }

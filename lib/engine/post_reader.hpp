@@ -15,7 +15,13 @@ namespace coordreq {
 /// The one question that every operator asks, answered for a whole row of cells at once: the least level in
 /// f(x, u) for each cell x. 0 where f(x, u) is empty: the post is blocked, or its tube is not safe.
 ///
-/// One object a thread. The levels may change between one enter() and the next, not in between.
+/// Threads: one object a thread; the objects of many threads may read the same levels.
+///
+/// 1. From one enter() to the next the levels do not change, and all rows asked about are of one unit:
+///    minima that its rows share are kept until then.
+/// 2. A row that is returned is valid until the next call.
+/// 3. minimum() of the box around all posts of a row, and bound(), are nowhere above minimum() of any
+///    choice that they stand for.
 template <class Level>
 class PostReader {
  public:
@@ -27,46 +33,47 @@ class PostReader {
   PostReader(const PostReader&) = delete;
   PostReader& operator=(const PostReader&) = delete;
 
-  /// Begins with the rows of another unit.
+  /// Goes to a unit: its rows are asked about from now on.
   void enter() {
     boxes_.enter();
     if (sums_) sums_->enter();
   }
 
-  /// The same, with other levels to read from now on.
+  /// Goes to a unit, and reads other levels of the same layout from now on.
   void enter(const LevelRows<Level>& levels) {
     boxes_.read(levels);
     if (sums_) sums_->read(levels);
     enter();
   }
 
-  /// For the slices numbered `ids`, one for each of engine.slices(). The row may be read up to the next call;
-  /// whole blocks, as LevelKernels ask.
+  /// Least levels of the posts given by the numbers of their slices, one for each of engine.slices(). Whole
+  /// blocks may be read, as LevelKernels ask.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
-    const auto own = ids.first(engine_.tables());
-    const Level* levels = posts_->minimum(own);
+    const auto of_posts = ids.first(engine_.tables());
+    const Level* levels = posts_->minimum(of_posts);
     return tubes_.empty() ? levels : with_tubes(ids, levels);
   }
-  /// In some lanes of the row alone, the first of them first.
-  /// @param rest what the rest of their last block holds, unless it holds the minima there
+  /// minimum() in some lanes of the row alone; the first of these lanes comes first.
+  /// @param rest the level in the rest of their last block, unless the minima stand there
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids, LaneRange lanes, Level rest) {
     return has_bounds() ? sums_->minimum(ids, lanes, rest) : minimum(ids) + lanes.begin;
   }
 
-  /// Takes in several choices of slices, from now on called 0, 1, ...: the same as minimum() of each, but
-  /// that the least of several at once may have a bound that costs no more than one of them.
-  /// @param ids for each choice as in minimum(), one choice after the other; to be there until the next call
+  /// Takes several choices of slices for a row, numbered 0, 1, ... in minimum_of() and bound(): several of
+  /// them may have a bound together that costs no more than the minimum of one.
+  /// @param ids for each choice as in minimum(), one choice after the other; valid until the next take()
   void take(std::span<const std::uint32_t> ids) {
     taken_ = ids;
     if (has_bounds()) sums_->take(ids);
   }
+  /// minimum() of one of the choices taken.
   [[nodiscard]] const Level* minimum_of(std::size_t choice, LaneRange lanes, Level rest) {
     if (has_bounds()) return sums_->minimum_of(choice, lanes, rest);
     const std::size_t size = engine_.slices().size();
     return minimum(taken_.subspan(choice * size, size)) + lanes.begin;
   }
-  /// Levels that are nowhere above those of the choices [begin, end), in some lanes of the row; null: nothing
-  /// is known of all of them.
+  /// Levels that are nowhere above the minima of the choices [begin, end), in some lanes of the row; null:
+  /// there is no such bound. The switch is FastPaths::choice_bounds; see SumReader.
   [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes) {
     return bounds_several_ && has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
   }
@@ -89,14 +96,14 @@ class PostReader {
   [[nodiscard]] const Level* with_tubes(std::span<const std::uint32_t> ids, const Level* levels);
 
   const RowEngine& engine_;
-  BoxReader<Level> boxes_;  ///< around all posts of a row, at least
-  std::optional<SumReader<Level>> sums_;
-  RowReader<Level>* posts_;  ///< one of these two
-  std::vector<BoxReader<std::uint8_t>> tubes_;
+  BoxReader<Level> boxes_;  ///< reads posts if they are cut, and the box around all posts of a row
+  std::optional<SumReader<Level>> sums_;        ///< reads posts if they are added up
+  RowReader<Level>* posts_;                     ///< boxes_ or sums_
+  std::vector<BoxReader<std::uint8_t>> tubes_;  ///< [demand]
   bool bounds_several_ = fast_paths().choice_bounds;
   std::span<const std::uint32_t> taken_;
-  std::vector<Word> safe_;
-  std::vector<Word> one_;
+  std::vector<Word> safe_;  ///< lanes whose tube is inside the set of some demand
+  std::vector<Word> one_;   ///< lanes whose tube is inside the set of one demand
   std::vector<Level> lanes_;
   std::vector<Level> result_;
 };

@@ -31,8 +31,8 @@ struct RowPlace {
     }
   }
 
-  /// To the row that begins the next or the last `dimensions`-dimensional block of rows, as advance() does.
-  /// @pre this row begins one. @pre unchecked: there is such a block
+  /// To the first row of the next, or the last, choice of the first `dimensions` indices.
+  /// @pre this is the first row of one. @pre unchecked: there is such a choice
   void step(const UniformGrid& grid, std::size_t dimensions, bool backwards) {
     REQUIRES(
         std::ranges::none_of(std::span(index).subspan(dimensions), [](std::int64_t i) { return i != 0; }));
@@ -55,14 +55,15 @@ struct RowPlace {
   }
 };
 
-/// A box of cells that a row can lead to: rows, and what of each.
+/// A box of cells that a row can lead to: a range of rows in each dimension across them, and windows along.
 struct RowBox {
   /// In the dimensions across rows, as in ResolvedRange; first > last: no post has a cell there.
   std::vector<IndexRange> ranges;
   /// Offsets in the dimensions along the row.
   std::vector<IndexRange> windows;
-  /// Every post is one box of cells inside the domain or its margins, and all are inside this one: what holds
-  /// on the box holds on all posts. Else the box only names the rows that can matter.
+  /// Every post is one box of cells inside the domain or its margins, and inside this box: levels that all
+  /// cells of the box have at least, all posts have at least. Else the box only names the rows that posts can
+  /// meet.
   bool covers = true;
 
   void resize(const UniformGrid& grid) {
@@ -75,8 +76,8 @@ struct RowBox {
   }
 };
 
-/// Whether `test(sum of index times stride)` is true for some indices of a box, which ends there: `ranges` as
-/// in ResolvedRange. On a ring indices beyond the last begin anew.
+/// Whether `test(sum of index times stride)` is true for some indices of a box; stops at the first. `ranges`
+/// as in ResolvedRange: on a ring indices beyond the last begin anew.
 /// @param count, stride of the i-th of the ranges
 /// @param counter scratch memory
 template <class Count, class Stride, class Test>
@@ -118,8 +119,8 @@ bool any_in_box(std::span<const IndexRange> ranges, const Count& count, const St
   }
 }
 
-/// Whether `test(row number)` is true for some row of a box, which ends there: `ranges` in the dimensions
-/// from `first` on, index 0 in those it does not name.
+/// Whether `test(row number)` is true for some row of a box; stops at the first. `ranges` are of the
+/// dimensions from `first` on; in the dimensions before, the index is 0.
 template <class Test>
 bool any_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRange> ranges,
              std::vector<std::int64_t>& counter, const Test& test) {

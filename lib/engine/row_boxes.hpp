@@ -18,13 +18,14 @@ namespace coordreq {
 }
 
 /// The posts of a row class by class, where each state's motion depends on the inputs of one class at most:
-/// the post of a joint action is then the product of one box for each class.
+/// the post of a joint action is then the product of one box for each class, so that boxes of each class are
+/// looked at instead of joint actions. The switch is FastPaths::product_posts.
 class RowBoxes {
  public:
   enum class Kind : std::uint8_t {
     box,
-    gone,     ///< all left the domain safely in some dimension
-    blocked,  ///< left through an unsafe side
+    gone,     ///< the post has left the domain safely in some dimension
+    blocked,  ///< the post leaves through an unsafe side
   };
 
   /// @pre unchecked: `grouping` outlives this object.
@@ -33,8 +34,8 @@ class RowBoxes {
   /// True if posts are products: no state is moved by two classes, and no tube can block a post.
   [[nodiscard]] bool is_product() const { return is_product_; }
 
-  /// Takes up the posts of a row. @returns false if some slice of it falls into several pieces, or leads all
-  /// cells of the row to the same ones. @pre is_product()
+  /// Reads the posts of a row. @returns false if some slice has several segments, or leads all cells of the
+  /// row to the same range along it. @pre is_product()
   bool fill(const RowPlace& place, const RowGroups& groups);
 
   [[nodiscard]] Kind kind(std::size_t c, std::uint32_t g) const { return kinds_[c][g]; }
@@ -42,16 +43,16 @@ class RowBoxes {
   [[nodiscard]] std::span<const IndexRange> ranges(std::size_t c, std::uint32_t g) const {
     return {ranges_[c].data() + g * moved_[c].size(), moved_[c].size()};
   }
-  /// Dimensions that class c moves; those that nothing moves count with the first class.
+  /// Dimensions that class c moves; dimensions that no class moves count as the first one's.
   [[nodiscard]] const std::vector<std::size_t>& moved(std::size_t c) const { return moved_[c]; }
 
   /// True if a group of the row leaves for good in some dimension.
   [[nodiscard]] bool has_gone() const { return has_gone_; }
 
-  /// Writes the part of class c into a box of all dimensions; `ranges` packed by pack_range().
+  /// Writes the ranges of class c into a box of all dimensions; as words they are packed by pack_range().
   void put(std::size_t c, std::span<const Word> ranges, RowBox& box) const;
   void put(std::size_t c, std::span<const IndexRange> ranges, RowBox& box) const;
-  /// Moves the part of class c further up. @param shift by dimension, in indices
+  /// Moves the ranges of class c in a box. @param shift [dimension] in indices
   void move(std::size_t c, std::span<const std::int32_t> shift, RowBox& box) const;
 
  private:

@@ -12,19 +12,18 @@ namespace {
 
 using Kind = RowSegment::Kind;
 
-/// More levels than this to a unit, with all sizes of boxes, and eroding them would take longer than it
+/// With more levels than this in the patches of a unit, for all sizes of boxes, eroding takes longer than it
 /// saves.
-constexpr double kMostBlockLevels = 1 << 22;
+constexpr double kMostPatchLevels = 1 << 22;
 
-/// Rough figures of a table, from a sample of its entries: how many slices there are to choose from in a
-/// row, and how many cells wide their ranges are.
-struct TableProfile {
-  double choices = 1;
-  double width = 1;
+/// Means of a table, from a sample of its entries.
+struct TableFigures {
+  double choices = 1;  ///< different slices to choose from in a row
+  double width = 1;    ///< cells of a range
 };
 
-/// Together: several processes look at what each has, and find the same.
-TableProfile profile(const RowSlices& slices, const RowShare* share) {
+/// Together: several processes add up their samples, and find the same.
+TableFigures figures_of(const RowSlices& slices, const RowShare* share) {
   constexpr std::size_t kSamples = 32;
   const auto combinations = static_cast<std::size_t>(slices.input_combinations);
   const std::size_t bases = slices.ids.size() / combinations;
@@ -66,7 +65,7 @@ RowEngine::RowEngine(const Abstraction& abstraction, const PairRules* pairs, con
 }
 
 void RowEngine::add_inner_demand(const CellSet& inside, std::vector<GridDimension> dimensions) {
-  // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
+  // The same tubes again, now blocked where they pass a limit: the others need not be safe beyond it.
   for (GridDimension& dimension : dimensions) {
     if (traits(dimension.below).resets) dimension.below = Outside::unsafe;
     if (traits(dimension.above).resets) dimension.above = Outside::unsafe;
@@ -86,8 +85,8 @@ void RowEngine::take_tube_sets() {
   }
 }
 
-/// The inner dimensions' tables as sums, if all of them are, and if what is left out moves all cells of a
-/// unit alike; else none. One that is a shift along the row alone is cut as usual.
+/// The tables of the inner dimensions as sums, if all of them are sums, and the tables of the dimensions
+/// before them move all cells of a unit alike; else none.
 std::vector<RowSlices> RowEngine::summed_slices() const {
   const std::vector<TransitionTable>& tables = abstraction_->tables;
   std::size_t outer = 0;
@@ -102,7 +101,7 @@ std::vector<RowSlices> RowEngine::summed_slices() const {
     variants *= static_cast<double>(grid()[t].count) + 2 * sums->widths().last + 2;
     result.push_back(keep_as_sums(*abstraction_, tables[t], *std::move(sums)));
   }
-  return variants <= kMostBlockLevels ? std::move(result) : std::vector<RowSlices>{};
+  return variants <= kMostPatchLevels ? std::move(result) : std::vector<RowSlices>{};
 }
 
 void RowEngine::add_family(const std::vector<TransitionTable>& tables,
@@ -123,7 +122,7 @@ void RowEngine::add_family(const std::vector<TransitionTable>& tables,
   }
 }
 
-/// Offsets along the row are brought to the shortest that mean the same; they decide on the margins.
+/// Brings windows along the row to the shortest of the same meaning. @returns margins that hold them
 RowMargins RowEngine::margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const {
   RowMargins margins;
   const auto widen = [&margins](IndexRange window) {
@@ -157,10 +156,9 @@ std::vector<RowEngine::Demand> RowEngine::demands() const {
   return result;
 }
 
-/// The first dimensions may be taken first if nothing that moves them depends on those that follow.
 bool RowEngine::is_closed(std::size_t outer) const {
   for (std::size_t t = 0; t < outer; ++t) {
-    // Not its strides: they are 0, too, for what a table depends on in another way than by its entries.
+    // Not the strides: they are 0, too, for a state that a table depends on by its shift or a term.
     const std::vector<std::int32_t>& states = abstraction_->tables[t].states;
     if (std::any_of(states.begin(), states.end(),
                     [&](std::int32_t j) { return static_cast<std::size_t>(j) >= outer; })) {
@@ -170,7 +168,7 @@ bool RowEngine::is_closed(std::size_t outer) const {
   return true;
 }
 
-/// Least rows read for one row: the rows for the shared minima, then those of them.
+/// Chooses the outer() with which the fewest rows are read for one row: for the shared minima, then of these.
 void RowEngine::choose_outer() {
   if (!posts().is_cut()) {
     while (slices_[outer_].is_cut()) ++outer_;
@@ -178,20 +176,20 @@ void RowEngine::choose_outer() {
     return;
   }
   const std::size_t last = fast_paths().shared_minima ? across() : 0;
-  std::vector<TableProfile> profiles;
-  for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices, share_));
+  std::vector<TableFigures> figures;
+  for (const RowSlices& slices : posts().slices) figures.push_back(figures_of(slices, share_));
   const auto cost = [&](std::size_t outer) {
     double shared = outer == 0 ? 0 : 1;
     double choices = 1;
     double inner = 1;
     for (std::size_t t = 0; t < tables(); ++t) {
-      // Of all choices about two are tried: the rest is dominated, or joined with others.
-      const double tried = std::min(profiles[t].choices, 2.0);
+      // About two of the choices are tried: others are dominated, or joined with them.
+      const double tried = std::min(figures[t].choices, 2.0);
       choices *= tried;
       if (t < outer) {
-        shared *= tried * profiles[t].width;
+        shared *= tried * figures[t].width;
       } else {
-        inner *= profiles[t].width;
+        inner *= figures[t].width;
       }
     }
     return shared + choices * inner;

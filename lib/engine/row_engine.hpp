@@ -15,52 +15,65 @@
 
 namespace coordreq {
 
-/// Slices of all states that are tested against one target.
+/// The slices of all states for one kind of boxes, posts or tubes, and the layout of the levels that they are
+/// read from.
 struct RowFamily {
-  /// One table a state. In those that rows run along offsets are at most as long as the dimension, either
-  /// way.
+  /// [state] In the dimensions along rows no offset is larger than the dimension, either way.
   std::span<const RowSlices> slices;
-  RowShape shape;  ///< margins as far as offsets go
+  RowShape shape;  ///< its margins hold all offsets
 
-  /// All slices are cut into segments. Else those of the dimensions from outer() on are added up, and those
-  /// before it move all cells of a unit alike.
+  /// All slices are cut into segments. Else the slices of the dimensions from outer() on are added up, and
+  /// those of the dimensions before it move all cells of a unit alike.
   [[nodiscard]] bool is_cut() const { return slices.back().is_cut(); }
 };
 
-/// The abstraction laid out for whole rows of cells, and how work on it is cut up.
+/// The abstraction laid out for whole rows of cells, and how work on it is divided.
 ///
-/// The post of a row is the minimum over a box of rows (dimensions across them) of levels, and over windows
-/// along the row. Rows run along the last dimension, or along several where each of these moves by an offset
-/// of its own: see join_rows(). Where the first `outer()` dimensions move by themselves, whatever the others
-/// do, the minimum over them is the same for all rows that share these indices: a *unit*. PostReader takes it
-/// once. Immutable once built, so safe to share between threads.
+/// The least level in the posts of a row is a minimum over a box of rows (in the dimensions across rows) and
+/// over windows along the row. Rows run along the last dimension, or along several where each of these moves
+/// by an offset of its own: see join_rows(). Where the first `outer()` dimensions move by themselves,
+/// whatever the others do, the minimum over them is the same for all rows that share these indices: a *unit*.
+/// PostReader takes that minimum once.
+///
+/// Threads: any number may read. set_pairs() and take_tube_sets() are called before any other thread has the
+/// engine.
+///
+/// 1. slices() holds tables() tables of posts, one a state; then as many for each of demands(). target(t)
+///    is the dimension that table t was cut for.
+/// 2. Unit k is the rows from k * unit_rows() on, unit_rows() of them. If outer() is 0 there is one unit.
+/// 3. No table of the first outer() dimensions depends on another dimension.
+/// 4. If posts are added up, outer() > 0 and along() is 1; the tables from outer() on are sums, those
+///    before it are cut.
+/// 5. The margins of a family hold every window of its slices.
+/// 6. All processes choose the same outer(). Rows have the numbers of the whole grid in each of them.
 class RowEngine {
  public:
-  /// @param pairs may be null: everything is allowed
-  /// @param tubes what tubes must stay in, if there are any
+  /// @param pairs may be null: all pairs are allowed
+  /// @param tubes the sets that tubes must stay in, if there are tubes
   /// @param share which rows are whose, together; null: there is one process
   /// @pre unchecked: they outlive this object
   RowEngine(const Abstraction& abstraction, const PairRules* pairs, const TubeSets& tubes,
             const RowShare* share = nullptr);
 
-  /// Only what is allowed counts from now on. @pre there were no pairs.
-  /// @pre unchecked: nobody has asked; `pairs` outlives this object
+  /// From now on only these pairs are allowed. @pre there were no pairs.
+  /// @pre unchecked: allow() and permitted() were not called before; `pairs` outlives this object
   void set_pairs(const PairRules& pairs) {
     REQUIRES(pairs_ == nullptr);
     pairs_ = &pairs;
   }
-  /// Takes in, once more, what tubes must stay in: in the rows held, which may not be there before.
+  /// Reads the sets that tubes must stay in, in the rows held: when they have been filled
+  /// (TubeSets::are_known).
   void take_tube_sets();
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
   [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }
-  /// Those of the posts, one a state; then, if there are tubes, those of the tubes in the same order, once or
-  /// twice.
+  /// The slices of posts, one table a state; then, if there are tubes, the slices of tubes in the same order,
+  /// once or twice.
   [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
   [[nodiscard]] RowFamily posts() const { return family(0); }
   /// The dimension, with its rules for leaving the domain, that a table of slices was cut for.
   [[nodiscard]] const GridDimension& target(std::size_t table) const { return targets_[table]; }
-  /// A post counts as blocked unless its tube is inside the set of one of these.
+  /// A set that tubes may stay in: a post is blocked unless its tube is inside the set of one of the demands.
   struct Demand {
     RowFamily family;
     const LevelRows<std::uint8_t>* inside;  ///< the greatest level for members, else 0
@@ -86,8 +99,7 @@ class RowEngine {
   [[nodiscard]] std::size_t across() const { return grid().across(); }
   [[nodiscard]] std::size_t along() const { return tables() - across(); }
 
-  /// True if the first dimensions move by themselves: none of their tables depends on the state of one that
-  /// follows.
+  /// True if the first dimensions move by themselves: none of their tables depends on a dimension after them.
   [[nodiscard]] bool is_closed(std::size_t outer) const;
   /// Number of leading dimensions whose minimum is shared by the rows of a unit; may be 0.
   [[nodiscard]] std::size_t outer() const { return outer_; }
@@ -124,7 +136,7 @@ class RowEngine {
   std::vector<RowSlices> slices_;
   std::vector<GridDimension> targets_;           ///< [table of slices]
   std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
-  std::vector<const CellSet*> inside_sets_;      ///< their cells
+  std::vector<const CellSet*> inside_sets_;      ///< the cells of each
   std::vector<RowShape> shapes_;                 ///< one a family: posts; tubes; tubes that pass no limit
   std::size_t outer_ = 0;
   std::int64_t unit_rows_ = 1;

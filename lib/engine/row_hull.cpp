@@ -8,21 +8,21 @@
 namespace coordreq {
 namespace {
 
-/// Counts for each row the boxes of rows that hold it. A box costs its corners and not its rows: a sum along
-/// each dimension in turn spreads what was added at the corners.
+/// Counts for each row the boxes of rows that hold it. A box costs its corners and not its rows: changes are
+/// added at the corners, and a sum along each dimension in turn spreads them (summed-area table).
 class BoxCount {
  public:
   explicit BoxCount(const UniformGrid& grid) : grid_(grid), counts_(static_cast<std::size_t>(grid.rows())) {}
 
   void add(std::span<const IndexRange> ranges) { add_from(0, 0, 1, ranges); }
 
-  /// [row]. Of fewer than 2^32 boxes; only once.
+  /// [row] The counts. @pre unchecked: fewer than 2^32 boxes; called once
   [[nodiscard]] std::vector<std::uint32_t>& spread() {
     for (std::size_t i = 0; i < grid_.across(); ++i) {
       const auto stride = static_cast<std::size_t>(grid_.row_stride(i));
-      const std::size_t block = stride * static_cast<std::size_t>(grid_[i].count);
-      for (std::size_t begin = 0; begin < counts_.size(); begin += block) {
-        for (std::size_t row = begin + stride; row < begin + block; ++row)
+      const std::size_t length = stride * static_cast<std::size_t>(grid_[i].count);
+      for (std::size_t begin = 0; begin < counts_.size(); begin += length) {
+        for (std::size_t row = begin + stride; row < begin + length; ++row)
           counts_[row] += counts_[row - stride];
       }
     }
@@ -30,7 +30,7 @@ class BoxCount {
   }
 
  private:
-  /// From dimension i on; `change` wraps around, as the counts do.
+  /// Adds a box from dimension i on. `change` wraps around, like the counts.
   void add_from(std::size_t i, std::int64_t row, std::uint32_t change, std::span<const IndexRange> ranges) {
     if (i == ranges.size()) {
       counts_[static_cast<std::size_t>(row)] += change;
@@ -40,7 +40,7 @@ class BoxCount {
     const auto [first, last] = ranges[i];
     if (first > last) return;
     add_from(i + 1, row + first * stride, change, ranges);
-    // On a ring what is beyond the last index begins anew.
+    // On a ring indices beyond the last begin anew.
     if (last >= count) add_from(i + 1, row, change, ranges);
     const std::int64_t end = last + 1 - (last >= count ? count : 0);
     if (end < count) add_from(i + 1, row + end * stride, 0U - change, ranges);
@@ -50,7 +50,7 @@ class BoxCount {
   std::vector<std::uint32_t> counts_;
 };
 
-/// Where the tubes of rows lie in one dimension across rows.
+/// The ranges of the tubes of rows in one dimension across rows.
 struct TubeHull {
   const RowSlices* slices;
   std::vector<SliceHull> hulls;
@@ -95,9 +95,9 @@ void RowHull::box(const RowPlace& place, RowBox& box) const {
   box.resize(engine_->grid());
   box.covers = is_bound_;
   for (std::size_t i = 0; i < engine_->tables(); ++i) {
-    const SliceHull& own = hull(place, i);
-    box[i] = own.range;
-    box.covers = box.covers && own.covers;
+    const SliceHull& slice = hull(place, i);
+    box[i] = slice.range;
+    box.covers = box.covers && slice.covers;
   }
 }
 
@@ -105,16 +105,16 @@ std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range 
   if (rows.end - rows.begin > UINT32_MAX / (1 + std::ssize(engine_->demands())))
     return std::vector<std::uint8_t>(static_cast<std::size_t>(engine_->rows()), 1);
   BoxCount boxes(engine_->grid());
-  RowBox own;
+  RowBox reached;
   const std::vector<TubeHulls> tubes = hulls_of_tubes(*engine_);
   RowPlace place(engine_->grid(), rows.begin);
   for (; place.row < rows.end; place.advance(engine_->grid())) {
     if (set != nullptr && !any_set(set->row(place.row))) continue;
-    box(place, own);
-    boxes.add(own.ranges);
+    box(place, reached);
+    boxes.add(reached.ranges);
     for (const TubeHulls& hulls : tubes) {
-      for (std::size_t i = 0; i < hulls.size(); ++i) own.ranges[i] = hulls[i].range(place);
-      boxes.add(own.ranges);
+      for (std::size_t i = 0; i < hulls.size(); ++i) reached.ranges[i] = hulls[i].range(place);
+      boxes.add(reached.ranges);
     }
   }
   std::vector<std::uint8_t> met(static_cast<std::size_t>(engine_->rows()));

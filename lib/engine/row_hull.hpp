@@ -7,26 +7,28 @@
 
 namespace coordreq {
 
-/// For each row the smallest box that holds the posts of its cells under all inputs: the rows that can matter
-/// to it, and a bound for its levels that costs one look instead of one a joint action.
+/// For each row the smallest box that holds the posts of its cells under all inputs: it names the rows that
+/// posts can meet, and its minimum is a bound for levels that costs one read instead of one for each joint
+/// action (the switch is FastPaths::row_bounds).
 ///
-/// Blocked posts, and dimensions in which all has left for good, add nothing to the box.
+/// Segments that are blocked, or gone, add nothing to the box.
+/// Immutable once built, so safe to share between threads.
 class RowHull {
  public:
   /// @pre unchecked: `engine` outlives this object.
   explicit RowHull(const RowEngine& engine);
 
-  /// What the posts of one row have in common.
+  /// box = the box of the posts of a row.
   void box(const RowPlace& place, RowBox& box) const;
-  /// Its range or window in dimension i.
+  /// The range or window of that box in dimension i.
   [[nodiscard]] IndexRange range(const RowPlace& place, std::size_t i) const { return hull(place, i).range; }
-  /// The same for one choice of the states that its table uses.
+  /// The same for a choice of the states that the table of dimension i uses.
   [[nodiscard]] IndexRange range_of(std::size_t choice, std::size_t i) const {
     return hulls_[i][choice].range;
   }
 
-  /// [row] not 0 for the rows that posts and tubes of cells in some rows can meet. @param set of these; null:
-  /// all
+  /// [row] not 0 for the rows that posts and tubes of cells in some rows can meet.
+  /// @param set of the cells; null: all cells of the rows
   [[nodiscard]] std::vector<std::uint8_t> rows_met(const CellSet* set, RowShare::Range rows) const;
 
   [[nodiscard]] std::uint64_t bytes() const;
@@ -35,7 +37,7 @@ class RowHull {
   [[nodiscard]] const SliceHull& hull(const RowPlace& place, std::size_t i) const;
 
   const RowEngine* engine_;
-  bool is_bound_ = true;                       ///< no tube can block a post, whatever its box is inside of
+  bool is_bound_ = true;                       ///< boxes may cover: no tube can block a post
   std::vector<std::vector<SliceHull>> hulls_;  ///< [dimension][choice of the states that its table uses]
 };
 

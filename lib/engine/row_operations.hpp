@@ -15,7 +15,7 @@ using MutableRow = std::span<Word>;
 
 /// Sets bits [begin, end) and leaves the others.
 void set_bits(MutableRow row, std::int64_t begin, std::int64_t end);
-/// Sets those bits of `target` that are set in `source`, moved on by `offset`. @pre they exist
+/// Sets the bits of `target` that are set in `source`, moved up by `offset`. @pre `target` has them
 void add_bits(ConstRow source, std::int64_t offset, MutableRow target);
 [[nodiscard]] bool any_set(ConstRow row);
 /// True if every bit of `a` is set in `b`. @pre equally many words

@@ -8,19 +8,19 @@
 #include "engine/row_operations.hpp"
 #include "model/outside.hpp"
 
-// How a row of cells is laid out in memory, and what stands beyond its ends.
+// How a row of cells is laid out in memory, and which levels stand beyond its ends.
 namespace coordreq {
 
-/// How a row goes on beyond its ends: what a post that leaves there meets.
+/// How a row goes on beyond its ends, where posts leave it.
 struct RowEnds {
-  /// unsafe: nothing of any set; safe: a member of every set; saturate and stop: the first cell goes on;
-  /// periodic (both ends): the row itself.
+  /// unsafe: by cells of no set; safe: by cells of every set; saturate and stop: by its first cell again;
+  /// periodic (both ends): by the row itself.
   Outside below = Outside::unsafe;
   Outside above = Outside::unsafe;  ///< likewise, with the last cell
 };
 
-/// The offsets [first, last] along a row of n cells, as short as they can be with the same meaning: beyond
-/// its ends a row looks the same for ever, and on a ring it comes again.
+/// The shortest offsets [first, last] along a row of n cells that have the same meaning: beyond its ends a
+/// row goes on unchanged, and on a ring it comes again.
 [[nodiscard]] inline IndexRange fit_window(IndexRange window, std::int64_t n, RowEnds ends) {
   if (traits(ends.below).wraps) {
     std::int64_t first = (window.first % n + n) % n;
@@ -32,7 +32,7 @@ struct RowEnds {
           static_cast<std::int32_t>(std::clamp<std::int64_t>(window.last, -n, n))};
 }
 
-/// How many cells of the lattice beyond each end of a row can be asked for.
+/// How many cells beyond each end of a row posts can meet.
 struct RowMargins {
   std::int64_t before = 0;
   std::int64_t after = 0;
@@ -79,9 +79,9 @@ inline void mark_leaving(const RowShape& shape, std::size_t k, IndexRange window
   const std::int64_t n = dimension.count;
   const auto mark = [&](std::int64_t first, std::int64_t last) {
     if (first >= last) return;
-    // Blocks of n indices follow one another at the distance that the next slower dimension has.
-    const std::int64_t block = k == 0 ? shape.length() : shape.dimensions[k - 1].stride;
-    for (std::int64_t lane = 0; lane < shape.length(); lane += block)
+    // The n indices come again at the distance that the next slower dimension has.
+    const std::int64_t distance = k == 0 ? shape.length() : shape.dimensions[k - 1].stride;
+    for (std::int64_t lane = 0; lane < shape.length(); lane += distance)
       set_bits(bits, lane + first * dimension.stride, lane + last * dimension.stride);
   };
   if (traits(dimension.ends.below).blocks)

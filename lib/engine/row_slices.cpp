@@ -30,7 +30,7 @@ class RowCutter {
     return result;
   }
 
-  /// The row along which cell c goes to c + offset.first, ..., c + offset.last, without a look at its cells.
+  /// Cuts a row in which cell c goes to c + offset.first, ..., c + offset.last, in constant time.
   [[nodiscard]] RowSegment cut_shift(IndexRange offset) const {
     const RowSegment first = fixed(0, length_, offset);
     if (target_.periodic()) {
@@ -68,8 +68,8 @@ class RowCutter {
     return {begin, end, Kind::shifted, {saturate_index(low), saturate_index(high)}};
   }
 
-  /// Where the range lies relative to cell c, in 64 bits: an index that was saturated to 32 must not wrap
-  /// round here. On a ring the first one is in [0, count).
+  /// First and last offset of a range from cell c, in 64 bits: an index that was saturated to 32 bits must
+  /// not wrap round. On a ring the first offset is in [0, count).
   [[nodiscard]] std::pair<std::int64_t, std::int64_t> offset(IndexRange raw, std::int32_t c) const {
     if (!target_.periodic()) {
       return {static_cast<std::int64_t>(raw.first) - c, static_cast<std::int64_t>(raw.last) - c};
@@ -93,7 +93,7 @@ class RowCutter {
   std::int32_t length_;
 };
 
-/// Counts through what the slices of one table range over: its states without the last one, then its inputs.
+/// Counts through the choices that a table has a slice for: of its states across rows, then of its inputs.
 class RowChoices {
  public:
   RowChoices(const Abstraction& abstraction, const TransitionTable& table)
@@ -149,7 +149,7 @@ class RowChoices {
   std::vector<std::int64_t> inputs_;
 };
 
-/// Numbers slices in the order in which they are met, equal ones alike.
+/// Interns slices: numbers them in the order in which they first come.
 class SliceNumbers {
  public:
   /// @pre unchecked: `slices` outlives this object.
@@ -169,9 +169,9 @@ class SliceNumbers {
     std::size_t operator()(std::uint32_t i) const {
       std::uint64_t sum = 0;
       for (const RowSegment& s : (*slices)[i]) {
-        for (const std::int64_t part : {std::int64_t{s.begin} << 8U | static_cast<std::int64_t>(s.kind),
-                                        std::int64_t{s.range.first}, std::int64_t{s.range.last}}) {
-          sum = (sum ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
+        for (const std::int64_t number : {std::int64_t{s.begin} << 8U | static_cast<std::int64_t>(s.kind),
+                                          std::int64_t{s.range.first}, std::int64_t{s.range.last}}) {
+          sum = (sum ^ static_cast<std::uint64_t>(number)) * 0x9E3779B97F4A7C15U;
           sum ^= sum >> 29U;
         }
       }
@@ -187,14 +187,14 @@ class SliceNumbers {
   std::unordered_set<std::uint32_t, Hash, Equal> known_;
 };
 
-/// The choices of the rows that are held.
+/// The choices that belong to rows held.
 ThreadTeam::Range held_choices(const UniformGrid& grid, const TransitionTable& table, std::int64_t all) {
   if (!table.is_by_cells(grid.size())) return {0, all};
   const std::int64_t row = grid.row_length();
   return {table.before / row, (table.before + std::ssize(table.entries)) / row};
 }
 
-/// Strides into `ids`, over what RowChoices counts.
+/// Sets the strides into `ids`, row-major over the choices that RowChoices counts.
 void lay_out_ids(RowSlices& slices, const UniformGrid& grid, const InputSpace& inputs,
                  const TransitionTable& table) {
   slices.state_stride.assign(grid.size(), 0);
@@ -243,7 +243,7 @@ RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& t
   choice.seek(held.begin);
   for (std::int64_t i = held.begin; i < held.end; ++i, choice.advance()) {
     rows.read(choice.states(), choice.inputs(), row);
-    if (row == before) {  // neighbouring inputs often mean the same
+    if (row == before) {  // neighbouring inputs often have equal rows
       result.ids.push_back(result.ids.back());
       continue;
     }

@@ -11,14 +11,14 @@
 
 namespace coordreq {
 
-/// A stretch [begin, end) of the cells of a row for which one state's next range has one simple form.
+/// Cells [begin, end) of a row for which one state's next range has one simple form.
 struct RowSegment {
   enum class Kind : std::uint8_t {
     fixed,    ///< the same cells `range` for all
     shifted,  ///< cell c goes to the raw indices c + range.first, ..., c + range.last (modulo count on a
               ///< ring)
-    gone,     ///< all left the domain through a safe side
-    blocked,  ///< left through an unsafe side
+    gone,     ///< the whole range has left the domain through a safe side
+    blocked,  ///< part of the range leaves through an unsafe side
   };
   std::int32_t begin = 0;
   std::int32_t end = 0;
@@ -27,32 +27,28 @@ struct RowSegment {
   [[nodiscard]] auto operator<=>(const RowSegment&) const = default;
 };
 
-/// One state's transition table (or that of its tube) cut into rows along the last state dimension: for each
-/// choice of the other states and of the inputs in use the number of a slice, equal slices stored once.
+/// One state's transition table (or its table of tubes) cut into rows along the last state dimension: for
+/// each choice of the other states and of the inputs in use the number of a slice, equal slices stored once.
 ///
-/// A slice is a list of segments that together cover the row. `shifted` occurs only for the last dimension
-/// itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
-///
-/// If the state is periodic, 0 <= range.first < count, and range.last may go beyond as in ResolvedRange.
-///
-/// Where rows run along several dimensions, each of their tables is cut along its own, into one `shifted`
-/// segment a slice.
-///
-/// Or rows are not cut at all but added up when they are read (`sums`); then each row is a slice of its own,
-/// whose number is its position, and `ids` and `slices` are empty.
-///
-/// Positions are those of the rows that are held (HeldCells).
+/// 1. A slice is a list of segments that together cover the row. `shifted` occurs only for the last dimension
+///    itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
+/// 2. If the state is periodic, 0 <= range.first < count, and range.last may be beyond as in ResolvedRange.
+/// 3. Where rows run along several dimensions, each of their tables is cut along its own, into one `shifted`
+///    segment a slice.
+/// 4. If `sums` is there rows are not cut but added up when they are read: each row is a slice of its own,
+///    whose number is its position, and `ids` and `slices` are empty.
+/// 5. Positions are counted from the first row held (HeldCells).
 struct RowSlices {
   std::vector<std::uint32_t> ids;  ///< row-major over states (those across rows), then inputs
   std::vector<std::vector<RowSegment>> slices;
   std::vector<std::int64_t> state_stride;  ///< into `ids`; 0 where not in use, and along rows
   std::vector<std::int64_t> input_stride;
-  std::int64_t before = 0;              ///< positions in front of those that are held
+  std::int64_t before = 0;              ///< positions before the first one held
   std::vector<std::int32_t> inputs;     ///< in use, ascending
   std::int64_t input_combinations = 1;  ///< product of their counts; divides every state stride
   std::optional<SumRows> sums;
 
-  /// Where the positions of a row begin; it is held.
+  /// The first position of a row. @pre unchecked: the row is held
   [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride) - before; }
   /// Number of positions.
   [[nodiscard]] std::int64_t size() const {
@@ -66,29 +62,29 @@ struct RowSlices {
   [[nodiscard]] bool all_distinct() const { return sums.has_value(); }
   /// Slices are lists of segments.
   [[nodiscard]] bool is_cut() const { return !sums.has_value(); }
-  /// True if for every cell of the row slice `a` asks no more of the target than slice `b`. May be false
-  /// where that is not easily seen.
+  /// True if for no cell of the row the least level over slice `a` can be below that over slice `b`: its
+  /// range is inside, or it is gone, or `b` is blocked. False also where the segments do not show it.
   [[nodiscard]] bool is_within(std::uint32_t a, std::uint32_t b, const GridDimension& target) const;
   /// Bytes of all lists.
   [[nodiscard]] std::uint64_t bytes() const;
 };
 
-/// What the slices at some positions of a table have in common in its dimension.
+/// A range around the slices at some positions of a table.
 struct SliceHull {
-  IndexRange range{0, -1};  ///< resolved, or a window along the row; {0, -1}: they meet no cell
+  IndexRange range{0, -1};  ///< resolved, or a window along the row; {0, -1}: the slices meet no cell
   bool covers = false;      ///< every slice is one segment inside `range`
 };
 /// For each base, a multiple of input_combinations: the hull of the slices from there to the next one.
-/// @param along the dimension along rows that the table is of; null: it is across them
+/// @param along the table's dimension if it is along rows; null: it is across them
 [[nodiscard]] std::vector<SliceHull> slice_hulls(const RowSlices& slices, const GridDimension& target,
                                                  const RowDimension* along);
 
-/// @param table the one of `state` in abstraction.tables or abstraction.tubes
+/// Cuts a table into slices. @param table of `state`, in abstraction.tables or abstraction.tubes
 /// @param target the dimension of `state`, maybe with other rules for leaving the domain
 [[nodiscard]] RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table,
                                       std::size_t state, const GridDimension& target);
 
-/// The same for a table whose rows stay sums.
+/// RowSlices of a table whose rows stay sums.
 [[nodiscard]] RowSlices keep_as_sums(const Abstraction& abstraction, const TransitionTable& table,
                                      SumRows sums);
 

@@ -18,7 +18,7 @@ bool range_within(IndexRange a, IndexRange b, const GridDimension& target) {
   return target.periodic() && (inside(target.count) || std::int64_t{b.last} - b.first + 1 == target.count);
 }
 
-/// On a ring, with its first index in [0, count).
+/// The range; on a ring with its first index in [0, count).
 IndexRange normal(IndexRange range, const GridDimension& target) {
   if (!target.periodic()) return range;
   const auto n = static_cast<std::int32_t>(target.count);
@@ -26,7 +26,7 @@ IndexRange normal(IndexRange range, const GridDimension& target) {
   return {first, first + (range.last - range.first)};
 }
 
-/// Of slices that are lists of segments.
+/// The hull of slices that are lists of segments.
 SliceHull hull_of_segments(const RowSlices& slices, std::int64_t base, const GridDimension& target,
                            const RowDimension* along) {
   const Kind expected = along != nullptr ? Kind::shifted : Kind::fixed;
@@ -57,7 +57,7 @@ SliceHull hull_of_segments(const RowSlices& slices, std::int64_t base, const Gri
   return result;
 }
 
-/// Sums are not looked at cell by cell, and none of their states wraps round.
+/// The hull of sums, by the bounds of their profiles; the state of a sum does not wrap round.
 SliceHull hull_of_sums(const RowSlices& slices, std::int64_t base, SumRows::Reader& reader,
                        const GridDimension& target, const RowDimension* along) {
   IndexRange raw{INT32_MAX, INT32_MIN};
@@ -68,7 +68,7 @@ SliceHull hull_of_sums(const RowSlices& slices, std::int64_t base, SumRows::Read
   }
   if (along != nullptr) return {fit_window(raw, target.count, along->ends), true};
   const auto last = static_cast<std::int32_t>(target.count - 1);
-  // What leaves safely, or lands in the boundary cell, asks no more than the part of the box that is left.
+  // Cells that leave safely, or land in the boundary cell, are at no lower level than the rest of the box.
   const bool blocks =
       (raw.first < 0 && traits(target.below).blocks) || (raw.last > last && traits(target.above).blocks);
   return {{std::clamp(raw.first, 0, last), std::clamp(raw.last, 0, last)}, !blocks};
@@ -79,11 +79,11 @@ SliceHull hull_of_sums(const RowSlices& slices, std::int64_t base, SumRows::Read
 bool RowSlices::is_within(std::uint32_t a, std::uint32_t b, const GridDimension& target) const {
   if (a == b) return true;
   if (!is_cut()) return false;
-  const std::vector<RowSegment>& own = slices[a];
+  const std::vector<RowSegment>& one = slices[a];
   const std::vector<RowSegment>& other = slices[b];
-  if (own.size() != 1 || other.size() != 1) return own == other;
-  if (own[0].kind == Kind::gone || other[0].kind == Kind::blocked) return true;
-  return own[0].kind == other[0].kind && range_within(own[0].range, other[0].range, target);
+  if (one.size() != 1 || other.size() != 1) return one == other;
+  if (one[0].kind == Kind::gone || other[0].kind == Kind::blocked) return true;
+  return one[0].kind == other[0].kind && range_within(one[0].range, other[0].range, target);
 }
 
 std::vector<SliceHull> slice_hulls(const RowSlices& slices, const GridDimension& target,

@@ -11,8 +11,8 @@
 
 namespace coordreq {
 
-/// An operator that does not ask about some cells: they are in every set, whatever it would say of them.
-/// (Of a goal that ends the task: such a cell counts as T, contract, section 5.)
+/// An operator that spares some cells: they are in every set, and the operator inside is not asked about
+/// them. (The cells of a goal that ends the task, which count as T: contract, section 5.)
 template <class Level>
 class SparingOperator final : public RowOperator<Level> {
  public:

@@ -14,7 +14,7 @@ using Kind = RowSegment::Kind;
 
 constexpr std::size_t kMostSlots = 1024;
 
-/// A range that holds two, on a ring from an index of the domain on.
+/// A range that holds both; on a ring with its first index in the domain.
 IndexRange around_both(IndexRange one, IndexRange other, const GridDimension& dimension) {
   const auto n = static_cast<std::int32_t>(dimension.count);
   if (dimension.periodic() && other.first - one.first > n / 2) other = {other.first - n, other.last - n};
@@ -36,20 +36,21 @@ SumReader<Level>::SumReader(const RowEngine& engine, const LevelRows<Level>& lev
       kernels_(&level_kernels<Level>(best_instruction_set())),
       sums_(&sum_kernels(best_instruction_set())) {
   REQUIRES(!engine.posts().is_cut());
-  lay_out_block();
+  lay_out_patch();
   find_margins();
   constexpr std::size_t kLanes = kLevelBlock / sizeof(std::int32_t);
   const auto n = static_cast<std::size_t>(levels.row_length());
-  place_.resize(n + kLanes);
+  offsets_.resize(n + kLanes);
   result_.resize(n + kLevelBlock / sizeof(Level));
-  const std::size_t bytes = variants_ * static_cast<std::size_t>(block_cells_) * sizeof(Level);
-  slots_.resize(std::clamp<std::size_t>(kBlockBytes / bytes, 2, kMostSlots));
-  joined_slots_.resize(kJoinedBlocks);
+  const std::size_t bytes = variants_ * static_cast<std::size_t>(patch_cells_) * sizeof(Level);
+  slots_.resize(std::clamp<std::size_t>(kPatchBytes / bytes, 2, kMostSlots));
+  joined_slots_.resize(kJoinedPatches);
 }
 
-/// Room beyond the domain for the largest box on either side, sizes row-major over the dimensions.
+/// Lays out a patch, with room beyond the domain for the largest box on either side; sizes are row-major over
+/// the dimensions.
 template <class Level>
-void SumReader<Level>::lay_out_block() {
+void SumReader<Level>::lay_out_patch() {
   const std::size_t outer = engine_.outer();
   const std::size_t inner = engine_.tables() - outer;
   sides_.resize(inner);
@@ -79,11 +80,11 @@ void SumReader<Level>::lay_out_block() {
   std::reverse(readers_.begin(), readers_.end());
   // Kernels write whole blocks of levels: the next size begins after the last of them.
   constexpr auto kBlock = static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
-  block_cells_ = (stride + kBlock - 1) / kBlock * kBlock;
-  first_place_ = origin_;
+  patch_cells_ = (stride + kBlock - 1) / kBlock * kBlock;
+  first_offset_ = origin_;
   for (std::size_t i = 0; i < inner; ++i) {
-    const std::int64_t size = static_cast<std::int64_t>(size_stride_[i]) * block_cells_;
-    first_place_ -= narrowest_[i] * static_cast<std::int32_t>(size);
+    const std::int64_t size = static_cast<std::int64_t>(size_stride_[i]) * patch_cells_;
+    first_offset_ -= narrowest_[i] * static_cast<std::int32_t>(size);
   }
 }
 
@@ -116,8 +117,8 @@ void SumReader<Level>::find_margins() {
       unsafe = unsafe || rule.blocks;
       safe = safe || rule.arrives;
     }
-    if (row_start) places_of_rows_.push_back(cell);
-    // What leaves through an unsafe side is blocked, wherever else it leaves; else it may have left for good.
+    if (row_start) row_offsets_.push_back(cell);
+    // A cell beyond an unsafe side is blocked, wherever else it lies; else a cell beyond a safe side is gone.
     if (outside) margins_.push_back({cell, unsafe || safe ? -1 : nearest, unsafe ? Level{0} : kTop});
     std::size_t i = inner;
     while (i-- > 0) {
@@ -156,7 +157,7 @@ const Level* SumReader<Level>::minimum_of(std::size_t choice, LaneRange lanes, L
   return minimum(taken_.kinds[choice], lanes, rest);
 }
 
-/// What the slices of the leading dimensions say together; `fixed`: there are cells, in these ranges.
+/// The kind of the slices of the leading dimensions together; if it is `fixed` their ranges.
 template <class Level>
 RowSegment::Kind SumReader<Level>::lead(std::span<const std::uint32_t> ids, IndexRange* ranges) const {
   Kind kind = Kind::fixed;
@@ -169,7 +170,7 @@ RowSegment::Kind SumReader<Level>::lead(std::span<const std::uint32_t> ids, Inde
   return kind;
 }
 
-/// Of the box in question.
+/// The minimum of the box in ranges_ and rows_.
 template <class Level>
 const Level* SumReader<Level>::minimum(Kind kind, LaneRange lanes, Level rest) {
   if (kind == Kind::blocked) {
@@ -177,7 +178,7 @@ const Level* SumReader<Level>::minimum(Kind kind, LaneRange lanes, Level rest) {
     fill_rest(lanes, rest);
     return result_.data();
   }
-  // All that has left for good is alike, but for what else leaves through an unsafe side.
+  // Posts that have left for good share a patch: only inner dimensions, by an unsafe side, make a difference.
   if (kind == Kind::gone) ranges_.assign(ranges_.size(), {0, -1});
   fetch(slot(slots_, {}, kind == Kind::gone), lanes, rest);
   return result_.data();
@@ -190,17 +191,17 @@ const Level* SumReader<Level>::bound(std::size_t begin, std::size_t end, LaneRan
   return result_.data();
 }
 
-/// Makes the box in question one around those of some choices: the least lower and greatest upper ends.
-/// @returns false if there is none, or it would not be small
+/// ranges_, rows_ and widths_ = a box around those of some choices: the least lower and greatest upper ends.
+/// @returns false if there is no such box, or it is not small
 template <class Level>
 bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const SumRows::Rows& own = taken_.rows[i];
-    if (!own.has_one_run) return false;
-    SumRows::Row both = own[begin];
+    const SumRows::Rows& rows = taken_.rows[i];
+    if (!rows.has_one_profile) return false;
+    SumRows::Row both = rows[begin];
     for (std::size_t k = begin + 1; k < end; ++k) {
-      both.lower = std::min(both.lower, own.lower[k]);
-      both.upper = std::max(both.upper, own.upper[k]);
+      both.lower = std::min(both.lower, rows.lower[k]);
+      both.upper = std::max(both.upper, rows.upper[k]);
     }
     rows_[i] = both;
     widths_[i] = greatest_width(i, both);
@@ -217,35 +218,37 @@ bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
   return true;
 }
 
-/// Of a cell's last - first in an inner dimension: floor(a + d) - floor(a) is floor(d) or one more.
+/// The greatest last - first of a cell in an inner dimension: floor(a + d) - floor(a) is floor(d) or one
+/// more.
 template <class Level>
 std::int32_t SumReader<Level>::greatest_width(std::size_t i, const SumRows::Row& row) const {
   const SumRows& sums = *family_.slices[engine_.outer() + i].sums;
-  const std::int64_t difference = row.upper - row.lower + sums.widest(row.run);
+  const std::int64_t difference = row.upper - row.lower + sums.widest(row.profile);
   return static_cast<std::int32_t>((difference >> TransitionTable::kFractionBits) + 1);
 }
 
-/// The levels of the boxes in question, in some lanes of a row.
+/// result_ = the levels of the boxes in rows_, in some lanes of a row.
 template <class Level>
 void SumReader<Level>::fetch(const Slot& slot, LaneRange lanes, Level rest) {
   const bool has_all_sizes = slot.widths.empty();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     BoxSides& side = sides_[i];
     const SumRows& sums = *family_.slices[engine_.outer() + i].sums;
-    side.lower_run = sums.run_lower(rows_[i].run).from(lanes.begin);
-    side.upper_run = sums.run_upper(rows_[i].run).from(lanes.begin);
+    side.lower_profile = sums.profile_lower(rows_[i].profile).from(lanes.begin);
+    side.upper_profile = sums.profile_upper(rows_[i].profile).from(lanes.begin);
     side.lower = rows_[i].lower;
     side.upper = rows_[i].upper;
-    const std::int64_t stride = static_cast<std::int64_t>(size_stride_[i]) * block_cells_;
+    const std::int64_t stride = static_cast<std::int64_t>(size_stride_[i]) * patch_cells_;
     side.width_stride = has_all_sizes ? static_cast<std::int32_t>(stride) : 0;
   }
   const std::size_t n = lanes.size();
-  sums_->find_places(sides_.data(), sides_.size(), has_all_sizes ? first_place_ : origin_, place_.data(), n);
-  // Pointers of their own: bytes that are written might be those of a vector's.
+  sums_->find_offsets(sides_.data(), sides_.size(), has_all_sizes ? first_offset_ : origin_, offsets_.data(),
+                      n);
+  // By local pointers: else compilers allow for bytes written to be those of the vectors themselves.
   const Level* const levels = slot.levels.data();
-  const std::int32_t* const place = place_.data();
+  const std::int32_t* const offset = offsets_.data();
   Level* const result = result_.data();
-  for (std::size_t c = 0; c < n; ++c) result[c] = levels[place[c]];
+  for (std::size_t c = 0; c < n; ++c) result[c] = levels[offset[c]];
   fill_rest(lanes, rest);
 }
 
@@ -254,7 +257,7 @@ void SumReader<Level>::fill_rest(LaneRange lanes, Level rest) {
   std::fill_n(result_.begin() + static_cast<std::ptrdiff_t>(lanes.size()), kLevelBlock / sizeof(Level), rest);
 }
 
-/// The block for the leading ranges_, eroded by boxes of one size, or of all.
+/// The patch for the leading ranges_, eroded by boxes of one size, or of all sizes.
 template <class Level>
 typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std::vector<std::int32_t>& widths,
                                                         bool gone) {
@@ -264,7 +267,7 @@ typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std:
     hash = mixed_hash(hash, static_cast<std::uint32_t>(range.last));
   }
   for (const std::int32_t width : widths) hash = mixed_hash(hash, static_cast<std::uint32_t>(width));
-  // A few places to look; where all are taken the last gives way.
+  // A few slots are looked at; where all are taken the last one is used again.
   constexpr std::size_t kProbes = 4;
   std::size_t at = (hash >> 32) % slots.size();
   for (std::size_t probe = 0; probe < kProbes; ++probe, at = (at + 1) % slots.size()) {
@@ -284,22 +287,22 @@ typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std:
 template <class Level>
 void SumReader<Level>::fill(Slot& slot, bool gone) {
   const std::size_t sizes = slot.widths.empty() ? variants_ : 1;
-  // What erosion reads beyond a block is in the one after it, and makes no difference.
+  // Erosion reads beyond a patch, from the one after it; those levels make no difference.
   std::int64_t beyond = 0;
   for (std::size_t i = 0; i < sides_.size(); ++i) beyond += std::int64_t{reach_[i] + 1} * sides_[i].stride;
-  slot.levels.resize(sizes * static_cast<std::size_t>(block_cells_) + static_cast<std::size_t>(beyond) +
+  slot.levels.resize(sizes * static_cast<std::size_t>(patch_cells_) + static_cast<std::size_t>(beyond) +
                      kLevelBlock);
-  fill_block(slot, gone);
-  erode_block(slot, slot.widths.empty() ? narrowest_ : slot.widths);
+  fill_patch(slot, gone);
+  erode_patch(slot, slot.widths.empty() ? narrowest_ : slot.widths);
   for (std::size_t size = 1; size < sizes; ++size) erode(slot, size);
 }
 
-/// The minima over the leading dimensions, with margins.
+/// Fills a patch with the minima over the leading dimensions, and its margins.
 template <class Level>
-void SumReader<Level>::fill_block(Slot& slot, bool gone) {
+void SumReader<Level>::fill_patch(Slot& slot, bool gone) {
   const auto n = static_cast<std::size_t>(levels_->row_length());
-  for (std::size_t inner = 0; inner < places_of_rows_.size(); ++inner) {
-    Level* target = slot.levels.data() + places_of_rows_[inner];
+  for (std::size_t inner = 0; inner < row_offsets_.size(); ++inner) {
+    Level* target = slot.levels.data() + row_offsets_[inner];
     if (gone) {
       std::fill_n(target, n, kTop);
       continue;
@@ -314,28 +317,28 @@ void SumReader<Level>::fill_block(Slot& slot, bool gone) {
   }
 }
 
-/// Each cell of the first block becomes the minimum of the box that begins there, a dimension at a time, by
+/// Each cell of the first patch becomes the minimum of the box that begins there: one dimension at a time, by
 /// doubling.
 template <class Level>
-void SumReader<Level>::erode_block(Slot& slot, const std::vector<std::int32_t>& widths) {
-  Level* block = slot.levels.data();
+void SumReader<Level>::erode_patch(Slot& slot, const std::vector<std::int32_t>& widths) {
+  Level* patch = slot.levels.data();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     for (std::int32_t done = 1; done < widths[i] + 1;) {
       const std::int32_t step = std::min(done, widths[i] + 1 - done);
-      const Level* pair[] = {block, block + std::int64_t{step} * sides_[i].stride};
-      kernels_->minimum(pair, 2, block, static_cast<std::size_t>(block_cells_));
+      const Level* pair[] = {patch, patch + std::int64_t{step} * sides_[i].stride};
+      kernels_->minimum(pair, 2, patch, static_cast<std::size_t>(patch_cells_));
       done += step;
     }
   }
 }
 
-/// A box is the union of two that are one index shorter in some dimension; sizes come after all that are
-/// smaller.
+/// Makes the patch of a size from that of a smaller one: a box is the union of two that are one index shorter
+/// in some dimension.
 template <class Level>
 void SumReader<Level>::erode(Slot& slot, std::size_t size) {
   std::size_t i = 0;
   while (size / size_stride_[i] % static_cast<std::size_t>(sizes_[i]) == 0) ++i;
-  const auto cells = static_cast<std::size_t>(block_cells_);
+  const auto cells = static_cast<std::size_t>(patch_cells_);
   const Level* shorter = slot.levels.data() + (size - size_stride_[i]) * cells;
   const Level* pair[] = {shorter, shorter + sides_[i].stride};
   kernels_->minimum(pair, 2, slot.levels.data() + size * cells, cells);

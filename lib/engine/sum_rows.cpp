@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-/// One part of a sum as the table stores it.
+/// One term of a sum as the table stores it.
 struct SumSource {
   const std::int64_t* lower;
   const std::int64_t* upper;
@@ -19,13 +19,13 @@ struct SumSource {
 
 namespace {
 
-/// Cells of a run are read in blocks of this many.
-constexpr std::int64_t kRunBlock = kLevelBlock / sizeof(std::int32_t);
+/// Cells of a profile are read in blocks of this many.
+constexpr std::int64_t kProfileBlock = kLevelBlock / sizeof(std::int32_t);
 
 constexpr int kFractionBits = TransitionTable::kFractionBits;
 
-/// More numbers than this in the runs are no small table any more.
-constexpr std::int64_t kMostRunNumbers = std::int64_t{1} << 22;
+/// With more numbers than this in its profiles a table is not small any more.
+constexpr std::int64_t kMostProfileNumbers = std::int64_t{1} << 22;
 
 std::vector<SumSource> sources(const TransitionTable& table) {
   std::vector<SumSource> result{{table.base_lower.data(), table.base_upper.data(), table.base_lower.size(),
@@ -39,7 +39,7 @@ std::vector<SumSource> sources(const TransitionTable& table) {
 
 }  // namespace
 
-/// Takes a table apart into what varies along rows and what does not.
+/// Divides a table into terms that vary along rows and terms that do not.
 class SumRows::Builder {
  public:
   Builder(const Abstraction& abstraction, const TransitionTable& table, std::size_t state)
@@ -51,21 +51,22 @@ class SumRows::Builder {
   [[nodiscard]] std::optional<SumRows> build() {
     if (along_.empty()) return std::nullopt;
     rows_.length_ = grid_.row_length();
-    rows_.run_stride_ = (rows_.length_ + kRunBlock - 1) / kRunBlock * kRunBlock;
+    rows_.profile_stride_ = (rows_.length_ + kProfileBlock - 1) / kProfileBlock * kProfileBlock;
     number_rows();
-    lay_out_runs();
-    if (rows_.size_ > std::int64_t{UINT32_MAX} || runs_.size() > kMostRunNumbers / rows_.run_stride_)
+    lay_out_profiles();
+    if (rows_.size_ > std::int64_t{UINT32_MAX} ||
+        profiles_.size() > kMostProfileNumbers / rows_.profile_stride_)
       return std::nullopt;
-    add_up_runs();
-    rows_.run_strides_ = strides(run_state_stride_, run_input_stride_);
+    add_up_profiles();
+    rows_.profile_strides_ = strides(profile_state_stride_, profile_input_stride_);
     for (const SumSource& source : apart_) {
-      rows_.parts_.push_back(
+      rows_.terms_.push_back(
           {source.lower, source.upper, strides(*source.state_stride, *source.input_stride)});
     }
     rows_.find_bounds();
     rows_.find_widths(table_);
     // Blocks are read from any lane on.
-    for (std::int64_t c = 0; c < kRunBlock; ++c) {
+    for (std::int64_t c = 0; c < kProfileBlock; ++c) {
       rows_.lower_.add(0);
       rows_.upper_.add(0);
     }
@@ -80,14 +81,14 @@ class SumRows::Builder {
     rows_.size_ = rows_.combinations_;
     for (const std::int32_t j : table_.states) {
       if (at(j) == last()) continue;
-      if (table_.shift && at(j) == state_) rows_.own_ = rows_.counts_.size();
+      if (table_.shift && at(j) == state_) rows_.shifted_state_ = rows_.counts_.size();
       rows_.counts_.push_back(grid_[at(j)].count);
       rows_.size_ *= grid_[at(j)].count;
     }
   }
 
-  /// Runs are told apart by the variables that some part uses which varies along the row.
-  void lay_out_runs() {
+  /// Profiles are told apart by the variables of terms that vary along the row.
+  void lay_out_profiles() {
     std::vector<std::int64_t> counts;
     const auto is_used = [&](std::size_t i, auto strides) {
       return std::any_of(along_.begin(), along_.end(),
@@ -95,51 +96,53 @@ class SumRows::Builder {
     };
     for (const std::int32_t j : table_.states) {
       if (at(j) == last() || !is_used(at(j), &SumSource::state_stride)) continue;
-      run_states_.push_back(at(j));
+      profile_states_.push_back(at(j));
       counts.push_back(grid_[at(j)].count);
     }
     for (const std::int32_t j : table_.inputs) {
       if (!is_used(at(j), &SumSource::input_stride)) continue;
-      run_inputs_.push_back(at(j));
-      rows_.run_inputs_.push_back(j);
+      profile_inputs_.push_back(at(j));
+      rows_.profile_inputs_.push_back(j);
       counts.push_back(inputs_[at(j)].count());
     }
-    runs_ = Odometer(counts);
-    run_state_stride_.assign(grid_.size(), 0);
-    run_input_stride_.assign(inputs_.size(), 0);
+    profiles_ = Odometer(counts);
+    profile_state_stride_.assign(grid_.size(), 0);
+    profile_input_stride_.assign(inputs_.size(), 0);
     std::int64_t stride = 1;
     for (std::size_t v = counts.size(); v-- > 0;) {
-      const bool is_state = v < run_states_.size();
-      (is_state ? run_state_stride_[run_states_[v]]
-                : run_input_stride_[run_inputs_[v - run_states_.size()]]) = stride;
+      const bool is_state = v < profile_states_.size();
+      (is_state ? profile_state_stride_[profile_states_[v]]
+                : profile_input_stride_[profile_inputs_[v - profile_states_.size()]]) = stride;
       stride *= counts[v];
     }
   }
 
-  void add_up_runs() {
+  void add_up_profiles() {
     do {
-      // Beyond the row its last cell again: blocks are read as a whole.
-      for (std::int64_t c = 0; c < rows_.run_stride_; ++c) add_up_cell(std::min(c, rows_.length_ - 1));
-    } while (runs_.advance());
+      // Blocks are read as a whole: beyond the row its last cell comes again.
+      for (std::int64_t c = 0; c < rows_.profile_stride_; ++c) add_up_cell(std::min(c, rows_.length_ - 1));
+    } while (profiles_.advance());
   }
 
   void add_up_cell(std::int64_t cell) {
-    const std::int64_t own = table_.shift && state_ == last() ? cell << kFractionBits : 0;
-    std::int64_t lower = own;
-    std::int64_t upper = own;
+    const std::int64_t shift = table_.shift && state_ == last() ? cell << kFractionBits : 0;
+    std::int64_t lower = shift;
+    std::int64_t upper = shift;
     for (const SumSource& source : along_) {
-      std::int64_t place = cell * (*source.state_stride)[last()];
+      std::int64_t entry = cell * (*source.state_stride)[last()];
       std::size_t v = 0;
-      for (const std::size_t j : run_states_) place += runs_.indices()[v++] * (*source.state_stride)[j];
-      for (const std::size_t j : run_inputs_) place += runs_.indices()[v++] * (*source.input_stride)[j];
-      lower += source.lower[place];
-      upper += source.upper[place];
+      for (const std::size_t j : profile_states_)
+        entry += profiles_.indices()[v++] * (*source.state_stride)[j];
+      for (const std::size_t j : profile_inputs_)
+        entry += profiles_.indices()[v++] * (*source.input_stride)[j];
+      lower += source.lower[entry];
+      upper += source.upper[entry];
     }
     rows_.lower_.add(lower);
     rows_.upper_.add(upper);
   }
 
-  /// What the variables that number the rows add to a place, given its strides by state and by input.
+  /// The strides of an entry in the variables that number the rows, given its strides by state and by input.
   [[nodiscard]] Strides strides(const std::vector<std::int64_t>& of_state,
                                 const std::vector<std::int64_t>& of_input) const {
     Strides result;
@@ -163,9 +166,9 @@ class SumRows::Builder {
   const TransitionTable& table_;
   std::size_t state_;
   std::vector<SumSource> along_, apart_;
-  std::vector<std::size_t> run_states_, run_inputs_;
-  std::vector<std::int64_t> run_state_stride_, run_input_stride_;
-  Odometer runs_{{}};
+  std::vector<std::size_t> profile_states_, profile_inputs_;
+  std::vector<std::int64_t> profile_state_stride_, profile_input_stride_;
+  Odometer profiles_{{}};
   SumRows rows_;
 };
 
@@ -175,17 +178,18 @@ std::optional<SumRows> SumRows::make(const Abstraction& abstraction, const Trans
   return Builder(abstraction, table, state).build();
 }
 
-void SumRows::SplitRuns::add(std::int64_t number) {
+void SumRows::SplitProfiles::add(std::int64_t number) {
   whole.push_back(static_cast<std::int32_t>(number >> kFractionBits));
   fraction.push_back(static_cast<std::uint32_t>(static_cast<std::uint64_t>(number)));
 }
 
-std::int64_t SumRows::SplitRuns::operator[](std::size_t i) const {
+std::int64_t SumRows::SplitProfiles::operator[](std::size_t i) const {
   return (std::int64_t{whole[i]} << kFractionBits) + fraction[i];
 }
 
 void SumRows::find_bounds() {
-  for (std::size_t first = 0; first < lower_.whole.size(); first += static_cast<std::size_t>(run_stride_)) {
+  for (std::size_t first = 0; first < lower_.whole.size();
+       first += static_cast<std::size_t>(profile_stride_)) {
     Bounds& bounds = bounds_.emplace_back(Bounds{INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN, 0});
     for (std::int64_t c = 0; c < length_; ++c) {
       const std::int64_t lower = lower_[first + static_cast<std::size_t>(c)];
@@ -199,7 +203,7 @@ void SumRows::find_bounds() {
   }
 }
 
-/// floor(a + d) - floor(a) is floor(d) or one more, whatever a is; d is a sum of one difference a part.
+/// floor(a + d) - floor(a) is floor(d) or one more for all a; d is a sum of one difference a term.
 void SumRows::find_widths(const TransitionTable& table) {
   std::int64_t least = 0;
   std::int64_t greatest = 0;
@@ -218,12 +222,12 @@ void SumRows::find_widths(const TransitionTable& table) {
 }
 
 IndexRange SumRows::hull(const Row& row) const {
-  const Bounds& bounds = bounds_[row.run];
+  const Bounds& bounds = bounds_[row.profile];
   return TransitionTable::sum_range(row.lower + bounds.least, row.upper + bounds.greatest);
 }
 
 IndexRange SumRows::offset_hull(const Row& row) const {
-  const Bounds& bounds = bounds_[row.run];
+  const Bounds& bounds = bounds_[row.profile];
   return TransitionTable::sum_range(row.lower + bounds.least_offset, row.upper + bounds.greatest_offset);
 }
 
@@ -231,62 +235,62 @@ std::uint64_t SumRows::bytes() const {
   return (lower_.whole.size() + upper_.whole.size()) * sizeof(std::int64_t);
 }
 
-SumRows::Reader::Reader(const SumRows& rows) : rows_(&rows), base_(rows.parts_.size()) {}
+SumRows::Reader::Reader(const SumRows& rows) : rows_(&rows), base_(rows.terms_.size()) {}
 
-/// To the choice of states that a row belongs to.
+/// Goes to the choice of states that a row belongs to.
 void SumRows::Reader::go_to(std::uint32_t number) {
-  // Rows are asked for choice by choice: a division for each would take longer than the rest.
+  // Rows are read choice by choice: a division for each would take longer than the rest.
   if (number >= first_ && number < first_ + rows_->combinations_) return;
   const std::int64_t choice = number / rows_->combinations_;
   first_ = choice * rows_->combinations_;
   std::fill(base_.begin(), base_.end(), 0);
-  run_base_ = 0;
-  own_ = 0;
+  profile_base_ = 0;
+  shift_ = 0;
   std::int64_t rest = choice;
   for (std::size_t v = rows_->counts_.size(); v-- > 0;) {
     const std::int64_t index = rest % rows_->counts_[v];
     rest /= rows_->counts_[v];
-    for (std::size_t p = 0; p < base_.size(); ++p) base_[p] += index * rows_->parts_[p].strides.state[v];
-    run_base_ += index * rows_->run_strides_.state[v];
-    if (v == rows_->own_) own_ = index << kFractionBits;
+    for (std::size_t p = 0; p < base_.size(); ++p) base_[p] += index * rows_->terms_[p].strides.state[v];
+    profile_base_ += index * rows_->profile_strides_.state[v];
+    if (v == rows_->shifted_state_) shift_ = index << kFractionBits;
   }
 }
 
 SumRows::Row SumRows::Reader::row(std::uint32_t number) {
   go_to(number);
   const auto combination = static_cast<std::size_t>(number - first_);
-  Row row{.lower = own_, .upper = own_};
+  Row row{.lower = shift_, .upper = shift_};
   for (std::size_t p = 0; p < base_.size(); ++p) {
-    const Part& part = rows_->parts_[p];
-    const std::int64_t place = base_[p] + part.strides.input[combination];
-    row.lower += part.lower[place];
-    row.upper += part.upper[place];
+    const Term& term = rows_->terms_[p];
+    const std::int64_t entry = base_[p] + term.strides.input[combination];
+    row.lower += term.lower[entry];
+    row.upper += term.upper[entry];
   }
-  row.run = static_cast<std::size_t>(run_base_ + rows_->run_strides_.input[combination]);
+  row.profile = static_cast<std::size_t>(profile_base_ + rows_->profile_strides_.input[combination]);
   return row;
 }
 
 void SumRows::Reader::read(std::span<const std::uint32_t> numbers, std::size_t step, Rows& rows) {
   const std::size_t count = (numbers.size() + step - 1) / step;
   go_to(numbers[0]);
-  rows.lower.assign(count, own_);
-  rows.upper.assign(count, own_);
-  rows.run.resize(count);
+  rows.lower.assign(count, shift_);
+  rows.upper.assign(count, shift_);
+  rows.profile.resize(count);
   for (std::size_t p = 0; p < base_.size(); ++p) {
-    const Part& part = rows_->parts_[p];
-    const std::int64_t* const lower = part.lower + base_[p];
-    const std::int64_t* const upper = part.upper + base_[p];
+    const Term& term = rows_->terms_[p];
+    const std::int64_t* const lower = term.lower + base_[p];
+    const std::int64_t* const upper = term.upper + base_[p];
     for (std::size_t k = 0; k < count; ++k) {
-      const std::int64_t place = part.strides.input[static_cast<std::size_t>(numbers[k * step] - first_)];
-      rows.lower[k] += lower[place];
-      rows.upper[k] += upper[place];
+      const std::int64_t entry = term.strides.input[static_cast<std::size_t>(numbers[k * step] - first_)];
+      rows.lower[k] += lower[entry];
+      rows.upper[k] += upper[entry];
     }
   }
-  rows.has_one_run = true;
+  rows.has_one_profile = true;
   for (std::size_t k = 0; k < count; ++k) {
     const auto combination = static_cast<std::size_t>(numbers[k * step] - first_);
-    rows.run[k] = static_cast<std::size_t>(run_base_ + rows_->run_strides_.input[combination]);
-    rows.has_one_run = rows.has_one_run && rows.run[k] == rows.run[0];
+    rows.profile[k] = static_cast<std::size_t>(profile_base_ + rows_->profile_strides_.input[combination]);
+    rows.has_one_profile = rows.has_one_profile && rows.profile[k] == rows.profile[0];
   }
 }
 

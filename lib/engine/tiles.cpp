@@ -5,7 +5,7 @@
 
 #include "base/fast_paths.hpp"
 #include "engine/action_sources.hpp"
-#include "engine/slot_book.hpp"
+#include "engine/interner.hpp"
 
 namespace coordreq {
 namespace {
@@ -13,11 +13,11 @@ namespace {
 using Numbers = Tiles::Numbers;
 using Kind = RowSegment::Kind;
 
-/// Tiles that are looked at to see whether enough of them are equal.
+/// Tiles in the sample that shows whether enough of them are equal.
 constexpr std::int64_t kSample = 4096;
-/// Below this part of different tiles the looking up pays.
+/// If fewer tiles than this fraction are different, looking up pays.
 constexpr double kMostDifferent = 0.5;
-/// Fewer rows are done before anything has been looked up.
+/// Fewer rows are worked out sooner than compared.
 constexpr std::int64_t kFewRows = 4;
 
 void add_segment(const RowSegment& segment, std::int64_t origin, const GridDimension& target, Numbers& list) {
@@ -25,12 +25,12 @@ void add_segment(const RowSegment& segment, std::int64_t origin, const GridDimen
   std::int64_t first = std::int64_t{segment.range.first} - (is_moved ? origin : 0);
   if (is_moved && target.periodic()) first = (first % target.count + target.count) % target.count;
   const std::int64_t width = std::int64_t{segment.range.last} - segment.range.first;
-  for (const std::int64_t part : {std::int64_t{segment.begin}, std::int64_t{segment.end},
-                                  static_cast<std::int64_t>(segment.kind), first, width})
-    list.push_back(static_cast<std::uint32_t>(part));
+  for (const std::int64_t number : {std::int64_t{segment.begin}, std::int64_t{segment.end},
+                                    static_cast<std::int64_t>(segment.kind), first, width})
+    list.push_back(static_cast<std::uint32_t>(number));
 }
 
-/// [choice] numbers of equal lists of ids.
+/// [choice] Numbers of its list of ids, equal for equal lists.
 Numbers number_lists(const std::vector<std::uint32_t>& ids, std::int64_t combinations) {
   const auto width = static_cast<std::size_t>(combinations);
   ListNumbers<std::uint32_t> lists;
@@ -57,7 +57,7 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
     const RowSlices& slices = engine.slices()[t];
     add_source(slices.state_stride, slices.before, slices.input_combinations, number_choices(t));
   }
-  // What a file lists may be equal where `allow` forbids something else.
+  // Rows may be equal in the pairs that a file lists, and different in those that `allow` forbids.
   if (engine.allow() != nullptr) add_pairs(*engine.allow());
   if (engine.permitted() != nullptr && engine.permitted() != engine.allow()) add_pairs(*engine.permitted());
 }
@@ -75,12 +75,13 @@ void Tiles::add_source(const std::vector<std::int64_t>& state_stride, std::int64
                        state_stride.begin() + static_cast<std::ptrdiff_t>(end),
                        [](std::int64_t stride) { return stride != 0; });
   };
-  if (!is_used(0, leading_)) return;  // it says the same of all tiles
+  if (!is_used(0, leading_)) return;  // the same for all tiles
   sources_.push_back(
       {&state_stride, before, combinations, is_used(leading_, engine_->across()), std::move(numbers)});
 }
 
-/// In the dimensions that tell tiles apart, ranges count from where the box of all posts begins.
+/// [choice of the states of table t] equal numbers for equal slices under all inputs. In the dimensions that
+/// tell tiles apart, ranges are counted from the beginning of the box of all posts.
 Numbers Tiles::number_choices(std::size_t t) const {
   const RowSlices& slices = engine_->slices()[t];
   if (t >= leading_) return number_lists(slices.ids, slices.input_combinations);
@@ -147,7 +148,7 @@ Numbers Tiles::contents_of_tiles(const Numbers& content) const {
 }
 
 Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
-  const Numbers own = contents_of_tiles(content);
+  const Numbers of_tiles = contents_of_tiles(content);
   ListNumbers<std::uint32_t> lists;
   Scratch scratch;
   Numbers result(static_cast<std::size_t>(size_), 0), list;
@@ -155,17 +156,17 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
     const auto tile = static_cast<std::size_t>(place.row / rows_);
     list.assign(1, before[tile]);
     add_contents(
-        place, [&](std::int64_t other) { return own[static_cast<std::size_t>(other)]; }, scratch, list);
+        place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
     result[tile] = lists.number(list);
     place = RowPlace(engine_->grid(), place.row + rows_);
   }
   return result;
 }
 
-/// Of a sample, drawn with equal distances that have no factor in common with a dimension: else all of it
-/// would be at the same place along that.
-double Tiles::part_different(const Numbers& content) const {
-  const Numbers own = contents_of_tiles(content);
+/// How many tiles of a sample are different. It is drawn with equal distances that have no factor in common
+/// with a dimension: else all of it could have one index there.
+double Tiles::fraction_different(const Numbers& content) const {
+  const Numbers of_tiles = contents_of_tiles(content);
   const auto has_common_factor = [this](std::int64_t step) {
     const std::vector<GridDimension>& dimensions = engine_->grid().dimensions();
     return std::any_of(dimensions.begin(), dimensions.begin() + static_cast<std::ptrdiff_t>(leading_),
@@ -182,7 +183,7 @@ double Tiles::part_different(const Numbers& content) const {
     add_tables(tile, list);
     const RowPlace place(engine_->grid(), tile * rows_);
     add_contents(
-        place, [&](std::int64_t other) { return own[static_cast<std::size_t>(other)]; }, scratch, list);
+        place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
     static_cast<void>(lists.number(list));
   }
   return static_cast<double>(lists.size()) / static_cast<double>(drawn);
@@ -201,15 +202,15 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
   const Numbers content = number_rows(set, engine.share());
   std::optional<Tiles> best;
   double least = kMostDifferent;
-  // Units first: with equal success they save more looking up.
+  // Units first: if as many are equal, fewer are looked up.
   for (const std::size_t leading : {engine.outer(), engine.across()}) {
     if (leading == 0 || (best && leading == engine.outer())) continue;
     Tiles tiles(engine, hull, leading);
     if (tiles.own().end - tiles.own().begin < kFewRows) continue;
     if (own.begin % tiles.rows() != 0 || own.end % tiles.rows() != 0) continue;
-    const double part = tiles.part_different(content);
-    if (part >= least) continue;
-    least = part;
+    const double fraction = tiles.fraction_different(content);
+    if (fraction >= least) continue;
+    least = fraction;
     best = std::move(tiles);
   }
   if (best) best->number_tables();
@@ -217,17 +218,17 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
 }
 
 Numbers number_rows(const CellSet& set, const RowShare* share) {
-  SlotBook book;
+  Interner interner;
   std::vector<std::int64_t> first;  // [number] the row that has come first
   Numbers result(static_cast<std::size_t>(set.rows()), 0);
   for (const RowShare::Range run : held_rows(share, set.rows())) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
       std::uint64_t hash = 0;
       for (const Word word : set.row(r)) hash = mixed_hash(hash, word);
-      std::uint32_t number = book.find(
+      std::uint32_t number = interner.find(
           hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
-      if (number == SlotBook::kNone) {
-        number = book.add(hash);
+      if (number == Interner::kNone) {
+        number = interner.add(hash);
         first.push_back(r);
       }
       result[static_cast<std::size_t>(r)] = number;

@@ -11,13 +11,17 @@
 
 namespace coordreq {
 
-/// Rows that are looked at together to see whether work on them is equal: a *tile* is one row, or the rows of
-/// a unit.
+/// Rows that are compared together to find equal work: a *tile* is one row, or the rows of a unit.
 ///
-/// What an operator says of a tile follows from what the tables say of it, from its own cells, and from the
-/// tiles in the box that its posts can meet. Tables that send two tiles to boxes of one size, at the same
-/// places in these, say the same *seen from the tiles*. So where all that is equal, the result is. Numbers
-/// stand for contents: equal ones mean equal contents, for these have been compared.
+/// The result of an operator for a tile follows from the tables, from the tile's own cells, and from the
+/// tiles in the box that its posts can meet. Tables that send two tiles to boxes of one size, and to the same
+/// ranges within these, are equal *seen from the tiles*. Where tables and contents are equal in this sense,
+/// so are results. Numbers stand for contents: equal numbers mean equal contents, which have been compared.
+///
+/// Why: rows that look alike are worked out, held and packed once. K of the gridworld takes 218 visits of
+/// rows instead of 2,587, that of the intersection 80,679 instead of 255,287, and the intersection half the
+/// memory. Where a sample finds little equal nothing is compared. Tried for networks, too: there looking for
+/// equal rows took 1.4 of the time, though 62 % were equal. The switch is FastPaths::equal_rows.
 ///
 /// Not for tables that are added up (SumRows), nor where tubes can block a post. Where several processes
 /// share the work, each knows the tiles that it owns, and no tile is cut. Immutable once built.
@@ -29,11 +33,12 @@ class Tiles {
     std::vector<std::int64_t> counter;
   };
 
-  /// Rows, units or nothing: what is often equal in a sample, where `set` is what rows hold.
+  /// Rows or units as tiles, whichever are more often equal in a sample; nothing if neither are often.
+  /// @param set the content of rows in the sample
   /// @pre unchecked: engine and hull outlive the tiles.
   [[nodiscard]] static std::optional<Tiles> find(const RowEngine& engine, const RowHull& hull,
                                                  const CellSet& set);
-  /// The same without a sample.
+  /// Tiles without a sample.
   /// @param leading number of leading dimensions that tell tiles apart: all across rows, or those of a unit
   [[nodiscard]] static std::optional<Tiles> make(const RowEngine& engine, const RowHull& hull,
                                                  std::size_t leading);
@@ -46,11 +51,11 @@ class Tiles {
   /// Number of leading dimensions that tell tiles apart.
   [[nodiscard]] std::size_t leading() const { return leading_; }
   [[nodiscard]] const RowEngine& engine() const { return *engine_; }
-  /// [tile] equal numbers where the tables say the same, seen from the tiles.
+  /// [tile] Equal numbers where the tables are equal, seen from the tiles.
   [[nodiscard]] const Numbers& tables() const { return tables_; }
 
-  /// Appends the content of the tile that begins at `place`, and of those that its posts can meet.
-  /// @param content number of what a tile holds, by the tile
+  /// Appends the content of the tile that begins at `place`, and of the tiles that its posts can meet.
+  /// @param content called with a tile: the number of its content
   template <class Content>
   void add_contents(const RowPlace& place, const Content& content, Scratch& scratch, Numbers& list) const {
     list.push_back(content(place.row / rows_));
@@ -60,12 +65,13 @@ class Tiles {
                  [&](std::int64_t row) { list.push_back(content(row / rows_)); });
   }
 
-  /// How much further up the boxes of row `to` lie than those of row `from`, where the two are in tiles of
-  /// which the tables say the same: by leading dimension, in indices.
+  /// shift = how much further up the boxes of row `to` lie than those of row `from`: [leading dimension] in
+  /// indices.
+  /// @pre unchecked: the rows are in tiles with equal tables
   void find_shift(std::int64_t from, std::int64_t to, std::vector<std::int32_t>& shift) const;
 
-  /// [tile] equal numbers where `before` is equal, and so are the contents of all that posts can meet.
-  /// @param content [row] equal numbers for equal rows
+  /// [tile] Equal numbers where `before` is equal, and so are the contents of the tile and of all that its
+  /// posts can meet. @param content [row] equal numbers for equal rows
   [[nodiscard]] Numbers refined(const Numbers& before, const Numbers& content) const;
 
  private:
@@ -74,10 +80,10 @@ class Tiles {
   /// A table of posts, or of pairs.
   struct Source {
     const std::vector<std::int64_t>* state_stride;
-    std::int64_t before;  ///< offsets in front of those that are held
+    std::int64_t before;  ///< offset of the first choice held
     std::int64_t combinations;
-    bool by_rows;     ///< it says something else of each row of a tile
-    Numbers numbers;  ///< [choice of its states] equal ones for what means the same under all inputs
+    bool by_rows;     ///< it depends on dimensions that tell the rows of a tile apart
+    Numbers numbers;  ///< [choice of its states] equal numbers for equal meanings under all inputs
   };
 
   void add_source(const std::vector<std::int64_t>& state_stride, std::int64_t before,
@@ -87,7 +93,7 @@ class Tiles {
   void add_tables(std::int64_t tile, Numbers& list) const;
   void number_tables();
   [[nodiscard]] Numbers contents_of_tiles(const Numbers& content) const;
-  [[nodiscard]] double part_different(const Numbers& content) const;
+  [[nodiscard]] double fraction_different(const Numbers& content) const;
 
   const RowEngine* engine_;
   const RowHull* hull_;
@@ -99,11 +105,11 @@ class Tiles {
   Numbers tables_;
 };
 
-/// Calls `visit(row, first)` for the rows of which `has(row)` is true, in order; `first` is the first of them
-/// in whose tile the same is said, at the same place in it, or the row itself.
-/// @param tiles null: of each row something else is said
-/// @param classes [tile] equal numbers where it is the same
-/// @pre unchecked: `has` says the same of the rows of two such tiles.
+/// Calls `visit(row, first)` for the rows for which `has(row)` is true, in order; `first` is the row at the
+/// same position in the first tile of the same class: the row itself in the first tile of a class.
+/// @param tiles null: all rows are different
+/// @param classes [tile] equal numbers where results are equal
+/// @pre unchecked: `has` is the same for the rows of two tiles of one class
 template <class Has, class Visit>
 void for_each_with_first(const Tiles* tiles, const Tiles::Numbers& classes, RowShare::Range rows,
                          const Has& has, const Visit& visit) {
@@ -115,14 +121,14 @@ void for_each_with_first(const Tiles* tiles, const Tiles::Numbers& classes, RowS
       continue;
     }
     const std::int64_t tile = r / tiles->rows();
-    const std::uint32_t own = classes[static_cast<std::size_t>(tile)];
-    if (own >= first.size()) first.resize(own + 1, -1);
-    if (first[own] < 0) first[own] = tile;
-    visit(r, first[own] * tiles->rows() + r % tiles->rows());
+    const std::uint32_t number = classes[static_cast<std::size_t>(tile)];
+    if (number >= first.size()) first.resize(number + 1, -1);
+    if (first[number] < 0) first[number] = tile;
+    visit(r, first[number] * tiles->rows() + r % tiles->rows());
   }
 }
 
-/// [row] equal numbers for equal rows of a set. @param share then of those held; null: of all
+/// [row] Equal numbers for equal rows of a set. @param share the rows held are numbered; null: all rows
 [[nodiscard]] Tiles::Numbers number_rows(const CellSet& set, const RowShare* share = nullptr);
 
 }  // namespace coordreq

@@ -10,12 +10,12 @@ namespace coordreq {
 /// `beyond` if the tube passes the limit of a state that saturates.
 struct TubeSets {
   const CellSet* inside = nullptr;    ///< null: there are no tubes
-  const CellSet* beyond = nullptr;    ///< a part of `inside`; null: the same
-  const UniformGrid* grid = nullptr;  ///< with the rules for tubes, if those for posts are others; or null
+  const CellSet* beyond = nullptr;    ///< a subset of `inside`; null: `inside` itself
+  const UniformGrid* grid = nullptr;  ///< with the rules for tubes; null: they are those for posts
   bool are_known = true;              ///< else the sets are filled later: RowEngine::take_tube_sets()
 };
 
-/// True if the tube of `state` with this raw range passes a limit that the sample puts it back on.
+/// True if a tube of `state` with this raw range passes a limit to which the state is set back at the sample.
 [[nodiscard]] inline bool passes_a_limit(IndexRange raw, const GridDimension& state) {
   return (traits(state.below).resets && raw.first < 0) ||
          (traits(state.above).resets && raw.last >= state.count);

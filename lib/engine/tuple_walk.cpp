@@ -6,7 +6,7 @@ namespace coordreq {
 
 void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
                       const Candidates& candidates, std::size_t fastest) {
-  REQUIRES(std::ranges::none_of(candidates, [](const auto& own) { return own.empty(); }));
+  REQUIRES(std::ranges::none_of(candidates, [](const auto& of_class) { return of_class.empty(); }));
   grouping_ = &grouping;
   candidates_ = candidates;
   sources_ = grouping.sources().size();
@@ -28,7 +28,7 @@ void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, con
   add_up(0);
 }
 
-/// From a place in the order on.
+/// Adds up sum_ from a position in order_ on.
 void TupleWalk::add_up(std::size_t from) {
   for (std::size_t k = from; k < order_.size(); ++k) {
     const std::int64_t* offset = offset_[order_[k]].data() + position_[order_[k]] * sources_;
@@ -92,10 +92,10 @@ bool TupleWalk::next_of_others() {
 
 void choose_groups(const RowGroups& groups, GroupChoice choice, TupleWalk::Candidates& candidates) {
   candidates.clear();
-  for (const ActionGroups* own : groups.classes) {
-    candidates.emplace_back(choice == GroupChoice::minimal   ? own->minimal
-                            : choice == GroupChoice::maximal ? own->maximal
-                                                             : own->all);
+  for (const ActionGroups* of_class : groups.classes) {
+    candidates.emplace_back(choice == GroupChoice::minimal   ? of_class->minimal
+                            : choice == GroupChoice::maximal ? of_class->maximal
+                                                             : of_class->all);
   }
 }
 

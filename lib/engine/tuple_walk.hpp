@@ -8,14 +8,14 @@
 
 namespace coordreq {
 
-/// Visits all choices of one candidate group a class in one row, one class (the last, if nobody asks for
-/// another one) faster than all others. Keeps its memory from row to row. One object a thread.
+/// Visits all choices of one candidate group a class in one row; one class, by default the last, changes
+/// fastest. Keeps its memory from row to row. One object a thread.
 class TupleWalk {
  public:
-  /// Groups of each class to choose from.
+  /// [class] Its groups to choose from.
   using Candidates = std::vector<std::span<const std::uint32_t>>;
 
-  /// Stands at the first choice. @pre no class is without a candidate.
+  /// Goes to the first choice. @pre no class is without a candidate.
   /// @pre unchecked: the arguments outlive the walk
   void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
              const Candidates& candidates) {
@@ -23,11 +23,11 @@ class TupleWalk {
   }
   void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
              const Candidates& candidates, std::size_t fastest);
-  /// @returns false after the last choice
+  /// Goes to the next choice. @returns false after the last one
   bool next();
 
-  /// To the next choice of all classes but the fastest, with its first candidate. @returns false after the
-  /// last one
+  /// Goes to the next choice of all classes but the fastest, with the first candidate of that one. @returns
+  /// false after the last one
   bool next_of_others();
 
   /// Group chosen in class c.
@@ -49,13 +49,13 @@ class TupleWalk {
   std::size_t sources_ = 0;                        ///< tables of slices, and one more if there is `allow`
   std::vector<std::vector<std::int64_t>> offset_;  ///< [class][position of the candidate * sources_ + source]
   std::vector<std::size_t> order_;                 ///< classes, the fastest last
-  std::vector<std::int64_t> sum_;      ///< [classes of the order added up * sources_ + source], bases first
+  std::vector<std::int64_t> sum_;      ///< [classes added up, in order_ * sources_ + source], bases first
   std::vector<std::size_t> position_;  ///< [class]
   std::vector<std::uint32_t> ids_;
   std::vector<std::uint32_t> all_ids_;
 };
 
-/// Which of the groups of each class are worth a look.
+/// Which groups of each class are candidates.
 enum class GroupChoice : std::uint8_t { minimal, maximal, all };
 void choose_groups(const RowGroups& groups, GroupChoice choice, TupleWalk::Candidates& candidates);
 

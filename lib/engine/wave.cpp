@@ -8,21 +8,22 @@
 
 #include "base/fast_paths.hpp"
 #include "engine/alive_rows.hpp"
-#include "engine/equal_tiles.hpp"
-#include "engine/halo_news.hpp"
-#include "engine/recent_levels.hpp"
-#include "engine/wave_news.hpp"
+#include "engine/dirty_rows.hpp"
+#include "engine/ghost_exchange.hpp"
+#include "engine/level_delta.hpp"
+#include "engine/tile_memo.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Rows of a batch, if units are not larger: so few that most rows see what was found just before (on the
-/// intersection of the paper 31 instead of 3,000 rows take a tenth of the visits), enough for some threads.
+/// Rows of a batch, if units are not larger: few, so that most rows see the levels found just before (batches
+/// of 31 instead of 3,000 rows: a tenth of the visits on the intersection of the paper), but enough for
+/// threads.
 constexpr std::int64_t kBatchRows = 32;
-/// Rows to a unit of work where the engine's units are too large to be one.
-constexpr std::int64_t kBlockRows = 32;
+/// Rows of a unit of the wave where the engine shares no minima, so that its unit is the grid.
+constexpr std::int64_t kUnitRows = 32;
 /// Rows that one thread takes at a time.
-constexpr std::int64_t kPieceRows = 8;
+constexpr std::int64_t kTaskRows = 8;
 /// Below this many levels, handing out the copying costs more than doing it.
 constexpr std::size_t kFewLevels = std::size_t{1} << 18;
 
@@ -40,50 +41,49 @@ class WaveRunner {
         op_(op),
         watch_(watch),
         team_(team),
-        unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
-        news_(engine, hull, unit_rows_),
-        equal_(equal, levels),
-        mirror_(equal.mirror),
-        alive_(levels, own_, unit_rows_, op.rises(), equal.mirror) {
+        unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kUnitRows : engine.unit_rows())),
+        dirty_(engine, hull, unit_rows_),
+        memo_(equal, levels),
+        symmetry_(equal.symmetry),
+        alive_(levels, own_, unit_rows_, op.rises(), equal.symmetry) {
     first_unit_ = own_.begin / unit_rows_;
     units_ = (own_.end + unit_rows_ - 1) / unit_rows_ - first_unit_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
     for (std::int64_t row = own_.begin; row < own_.end; ++row) {
-      if (alive_.has(row) && !is_settled(row)) news_.set_unseen(row / unit_rows_);
+      if (alive_.has(row) && !is_settled(row)) dirty_.set_unseen(row / unit_rows_);
     }
-    if (fast_paths().recent_levels && op.is_minimum() && !engine.posts().is_cut())
-      recent_.emplace(engine, team);
-    if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_);
+    if (fast_paths().level_delta && op.is_minimum() && !engine.posts().is_cut()) delta_.emplace(engine, team);
+    if (engine.share() != nullptr) ghosts_.emplace(levels, engine, hull, dirty_, unit_rows_);
   }
 
   /// @returns rows visited
   std::int64_t sweep(std::int64_t number) {
     const bool backwards = number % 2 == 1;
-    if (halo_) halo_->begin_sweep(number, backwards);
+    if (ghosts_) ghosts_->begin_sweep(number, backwards);
     WaveStep step{.sweep = number, .rows_left = alive_.count(), .rows = alive_.count(), .layer = layer_};
     lowest_ = kTop;
-    if (recent_) recent_->begin_sweep();
-    equal_.begin_sweep();
+    if (delta_) delta_->begin_sweep();
+    memo_.begin_sweep();
     std::vector<std::int64_t> batch;
     for (std::int64_t k = 0; k < units_; ++k) {
       const std::int64_t unit = first_unit_ + (backwards ? units_ - 1 - k : k);
       step.rows_left -= alive_.of_unit(unit);
-      if (halo_) halo_->before(unit, [this](std::int64_t row) { hear_of(row); });
-      if (alive_.of_unit(unit) > 0 && news_.is_pending(unit)) batch.push_back(unit);
+      if (ghosts_) ghosts_->before(unit, [this](std::int64_t row) { hear_of(row); });
+      if (alive_.of_unit(unit) > 0 && dirty_.is_pending(unit)) batch.push_back(unit);
       if (static_cast<std::int64_t>(batch.size()) < batch_units_ && (!batch.empty() && k + 1 < units_))
         continue;
       if (!batch.empty()) {
         step.visited += run(batch);
         batch.clear();
-        tell(step, !halo_);
-        if (halo_) halo_->listen();
+        tell(step, !ghosts_);
+        if (ghosts_) ghosts_->listen();
       }
-      if (halo_) halo_->after(unit);
+      if (ghosts_) ghosts_->after(unit);
     }
-    if (halo_) halo_->end_sweep([this](std::int64_t row) { hear_of(row); });
-    // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
-    // not changed while each cell was found to stay in them. Of one process: others may have more on its way.
+    if (ghosts_) ghosts_->end_sweep([this](std::int64_t row) { hear_of(row); });
+    // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets up to it did not
+    // change while each cell was found to stay in them. Not so with several processes: changes may be coming.
     if (lowest_ != kTop && engine_.share() == nullptr)
       layer_ = std::max<std::int64_t>(layer_, std::int64_t{lowest_} - 1);
     step.layer = layer_;
@@ -91,12 +91,12 @@ class WaveRunner {
     return step.visited;
   }
 
-  /// @returns whether there may be more to find; each of several processes knows a sweep late, and waits not.
+  /// @returns whether levels may still change. Several processes know a sweep late, so that none waits.
   bool goes_on(std::int64_t sweep, std::int64_t visited) {
-    if (!halo_) return visited > 0;
+    if (!ghosts_) return visited > 0;
     Ranks& ranks = engine_.share()->ranks();
     if (sweep > 1 && ranks.finish_sum() == 0) {
-      halo_->end();
+      ghosts_->end();
       return false;
     }
     ranks.begin_sum(std::exchange(changed_rows_, 0));
@@ -105,7 +105,7 @@ class WaveRunner {
 
   [[nodiscard]] std::int64_t alive_rows() const { return alive_.count(); }
   [[nodiscard]] std::int64_t copied_rows() const { return copied_; }
-  [[nodiscard]] std::int64_t mirrored_rows() const { return mirrored_; }
+  [[nodiscard]] std::int64_t permuted_rows() const { return permuted_count_; }
 
  private:
   static constexpr Level kTop = LevelRows<Level>::kTop;
@@ -115,12 +115,12 @@ class WaveRunner {
     std::size_t position;  ///< in the worker's storage
     std::uint64_t ready;   ///< LevelRows::make_ready()
   };
-  /// Rows of one unit that one thread looks at.
-  struct Piece {
+  /// Rows of one unit for one thread.
+  struct Task {
     std::int64_t unit;
     std::int64_t begin;
     std::int64_t end;
-    bool is_wanted = false;  ///< whatever has changed
+    bool is_wanted = false;  ///< its rows are known to be pending
   };
   /// A tile that will be equal to another one.
   struct Copy {
@@ -136,11 +136,11 @@ class WaveRunner {
     std::vector<Level> result;
     std::vector<Level> storage;
     std::vector<Change> changes;
-    WaveNews::Scratch news;
+    DirtyRows::Scratch dirty;
     std::int64_t visited = 0;
     Level lowest = kTop;      ///< to which a cell has sunk
-    std::uint32_t batch = 0;  ///< and unit: what the reader has entered
-    std::int64_t unit = -1;
+    std::uint32_t batch = 0;  ///< in which the reader was entered
+    std::int64_t unit = -1;   ///< that the reader was entered for
   };
 
   [[nodiscard]] bool is_settled(std::int64_t row) const {
@@ -148,18 +148,18 @@ class WaveRunner {
   }
 
   std::int64_t run(const std::vector<std::int64_t>& batch) {
-    batch_ = news_.begin_batch();
+    batch_ = dirty_.begin_batch();
     for (Worker& worker : workers_) {
       worker.changes.clear();
       worker.storage.clear();
       worker.visited = 0;
       worker.lowest = kTop;
     }
-    cut_into_pieces(batch);
-    team_.for_each(static_cast<std::int64_t>(pieces_.size()), 1, [&](ThreadTeam::Range range, int w) {
-      for (std::int64_t i = range.begin; i < range.end; ++i) visit(pieces_[static_cast<std::size_t>(i)], w);
+    cut_into_tasks(batch);
+    team_.for_each(static_cast<std::int64_t>(tasks_.size()), 1, [&](ThreadTeam::Range range, int w) {
+      for (std::int64_t i = range.begin; i < range.end; ++i) visit(tasks_[static_cast<std::size_t>(i)], w);
     });
-    for (const std::int64_t unit : batch) news_.mark_seen(unit);
+    for (const std::int64_t unit : batch) dirty_.mark_seen(unit);
     commit_all();
     copy_all();
     std::int64_t visited = 0;
@@ -168,70 +168,71 @@ class WaveRunner {
       lowest_ = std::min(lowest_, worker.lowest);
       changed_rows_ += static_cast<std::int64_t>(worker.changes.size());
       for (const Change& change : worker.changes) {
-        news_.mark_unit_of(change.row);
-        for_each_image(change.row, [this](std::int64_t image) {
-          news_.mark_unit_of(image);
-          ++mirrored_;
+        dirty_.mark_unit_of(change.row);
+        for_each_permuted(change.row, [this](std::int64_t permuted) {
+          dirty_.mark_unit_of(permuted);
+          ++permuted_count_;
         });
       }
     }
-    if (equal_.is_on() && equal_.rows() > 1) {
+    if (memo_.is_on() && memo_.rows() > 1) {
       for (const std::int64_t unit : batch) {
-        equal_.update(unit);
-        for_each_image(unit * unit_rows_, [this](std::int64_t image) { equal_.update(image / unit_rows_); });
+        memo_.update(unit);
+        for_each_permuted(unit * unit_rows_,
+                          [this](std::int64_t permuted) { memo_.update(permuted / unit_rows_); });
       }
     }
     return visited;
   }
 
-  /// RowMirror::for_each_image(), if there are any.
+  /// RowSymmetry::for_each_permuted(), if there is a symmetry.
   template <class Visit>
-  void for_each_image(std::int64_t row, const Visit& visit) const {
-    if (mirror_ != nullptr) mirror_->for_each_image(row, visit);
+  void for_each_permuted(std::int64_t row, const Visit& visit) const {
+    if (symmetry_ != nullptr) symmetry_->for_each_permuted(row, visit);
   }
 
-  /// A row has got other levels.
+  /// The levels of a row have changed.
   void mark_changed(std::int64_t row) {
-    news_.mark_row(row);
-    news_.mark_unit_of(row);
-    if (recent_) recent_->change(row, levels_.row(row));
+    dirty_.mark_row(row);
+    dirty_.mark_unit_of(row);
+    if (delta_) delta_->change(row, levels_.row(row));
   }
 
-  /// A row of the halo has changed.
+  /// A ghost row has changed.
   void hear_of(std::int64_t row) {
     mark_changed(row);
-    if (equal_.is_on() && equal_.rows() > 1) equal_.update(row / unit_rows_);
+    if (memo_.is_on() && memo_.rows() > 1) memo_.update(row / unit_rows_);
   }
 
-  void cut_into_pieces(const std::vector<std::int64_t>& batch) {
-    pieces_.clear();
+  void cut_into_tasks(const std::vector<std::int64_t>& batch) {
+    tasks_.clear();
     copies_.clear();
     for (const std::int64_t unit : batch) {
       const std::int64_t end = std::min((unit + 1) * unit_rows_, own_.end);
-      if (equal_.is_on() && equal_.rows() == 1) {
+      if (memo_.is_on() && memo_.rows() == 1) {
         choose_rows(unit, end);
         continue;
       }
-      if (equal_.is_on()) {
-        const std::int64_t other = equal_.find(RowPlace(engine_.grid(), unit * unit_rows_));
+      if (memo_.is_on()) {
+        const std::int64_t other = memo_.find(RowPlace(engine_.grid(), unit * unit_rows_));
         if (other != unit) copies_.push_back({other, unit});
         if (other != unit) continue;
       }
-      for (std::int64_t begin = std::max(unit * unit_rows_, own_.begin); begin < end; begin += kPieceRows) {
-        pieces_.push_back({unit, begin, std::min(begin + kPieceRows, end)});
+      for (std::int64_t begin = std::max(unit * unit_rows_, own_.begin); begin < end; begin += kTaskRows) {
+        tasks_.push_back({unit, begin, std::min(begin + kTaskRows, end)});
       }
     }
   }
 
-  /// Of the rows that are to be looked at those that are equal to no other.
+  /// Tasks for the pending rows of a unit, or copies of rows on which the work was equal.
   void choose_rows(std::int64_t unit, std::int64_t end) {
-    news_.enter(unit, scratch_);
+    dirty_.enter(unit, scratch_);
     RowPlace place(engine_.grid(), unit * unit_rows_);
     for (; place.row < end; place.advance(engine_.grid())) {
       if (!is_to_be_looked_at(place, unit, scratch_)) continue;
-      const std::int64_t other = equal_.find(place);
+      const std::int64_t other = memo_.find(place);
       if (other == place.row) {
-        pieces_.push_back({unit, place.row, place.row + 1, true});
+        tasks_.push_back({unit, place.row, place.row + 1, true});
       } else {
         copies_.push_back({other, place.row});
       }
@@ -239,24 +240,24 @@ class WaveRunner {
   }
 
   [[nodiscard]] bool is_to_be_looked_at(const RowPlace& place, std::int64_t unit,
-                                        WaveNews::Scratch& scratch) const {
+                                        DirtyRows::Scratch& scratch) const {
     if (!alive_.has(place.row)) return false;
-    const bool is_new = news_.is_unseen(unit) && !is_settled(place.row);
-    return is_new || news_.meets_change(place, unit, scratch);
+    const bool is_new = dirty_.is_unseen(unit) && !is_settled(place.row);
+    return is_new || dirty_.meets_change(place, unit, scratch);
   }
 
-  void visit(const Piece& piece, int w) {
+  void visit(const Task& task, int w) {
     Worker& worker = workers_[static_cast<std::size_t>(w)];
-    if (worker.batch != batch_ || worker.unit != piece.unit) {
-      worker.posts.enter(recent_ && !news_.is_unseen(piece.unit) ? recent_->levels() : levels_);
+    if (worker.batch != batch_ || worker.unit != task.unit) {
+      worker.posts.enter(delta_ && !dirty_.is_unseen(task.unit) ? delta_->levels() : levels_);
       worker.batch = batch_;
-      worker.unit = piece.unit;
+      worker.unit = task.unit;
     }
-    if (!piece.is_wanted && (!news_.is_unseen(piece.unit) || !settled_.empty()))
-      news_.enter(piece.unit, worker.news);
-    RowPlace place(engine_.grid(), piece.begin);
-    for (; place.row < piece.end; place.advance(engine_.grid())) {
-      if (piece.is_wanted || is_to_be_looked_at(place, piece.unit, worker.news)) visit_row(place, worker, w);
+    if (!task.is_wanted && (!dirty_.is_unseen(task.unit) || !settled_.empty()))
+      dirty_.enter(task.unit, worker.dirty);
+    RowPlace place(engine_.grid(), task.begin);
+    for (; place.row < task.end; place.advance(engine_.grid())) {
+      if (task.is_wanted || is_to_be_looked_at(place, task.unit, worker.dirty)) visit_row(place, worker, w);
     }
   }
 
@@ -281,7 +282,7 @@ class WaveRunner {
     worker.changes.push_back({place.row, position, levels_.make_ready(lanes)});
   }
 
-  /// @param is_together whether all processes do so now
+  /// @param is_together whether all processes are at this point now
   void tell(WaveStep& step, bool is_together) const {
     if (!watch_.step) return;
     const NumberRows state = rows_of(levels_);
@@ -305,15 +306,15 @@ class WaveRunner {
     for (const Change& change : worker.changes) {
       const Level* const lanes = worker.storage.data() + change.position;
       const auto recall = [&](std::int64_t row) {
-        if (recent_) recent_->change(row, levels_.row(row), lanes + levels_.margins().before);
+        if (delta_) delta_->change(row, levels_.row(row), lanes + levels_.margins().before);
       };
       recall(change.row);
       levels_.put_ready(change.row, lanes, change.ready);
-      news_.mark_row(change.row);
-      for_each_image(change.row, [&](std::int64_t image) {
-        recall(image);
-        static_cast<void>(levels_.copy_row(change.row, image));
-        news_.mark_row(image);
+      dirty_.mark_row(change.row);
+      for_each_permuted(change.row, [&](std::int64_t permuted) {
+        recall(permuted);
+        static_cast<void>(levels_.copy_row(change.row, permuted));
+        dirty_.mark_row(permuted);
       });
     }
   }
@@ -324,14 +325,14 @@ class WaveRunner {
       ++changed_rows_;
     };
     for (const Copy& copy : copies_) {
-      equal_.copy(copy.from, copy.to, [&](std::int64_t row) {
+      memo_.copy(copy.from, copy.to, [&](std::int64_t row) {
         mark(row);
-        for_each_image(row, [&](std::int64_t image) {
-          if (levels_.copy_row(row, image)) mark(image);
-          ++mirrored_;
+        for_each_permuted(row, [&](std::int64_t permuted) {
+          if (levels_.copy_row(row, permuted)) mark(permuted);
+          ++permuted_count_;
         });
       });
-      copied_ += equal_.rows() == 1 ? 1 : alive_.of_unit(copy.to);
+      copied_ += memo_.rows() == 1 ? 1 : alive_.of_unit(copy.to);
     }
   }
 
@@ -344,14 +345,14 @@ class WaveRunner {
   const WaveWatch& watch_;
   ThreadTeam& team_;
   std::int64_t unit_rows_;
-  WaveNews news_;
-  EqualTiles<Level> equal_;
-  std::optional<HaloNews<Level>> halo_;        ///< of several processes
-  std::optional<RecentLevels<Level>> recent_;  ///< where less is read so
-  const RowMirror* mirror_;                    ///< null: rows have no images
+  DirtyRows dirty_;
+  TileMemo<Level> memo_;
+  std::optional<GhostExchange<Level>> ghosts_;  ///< of several processes
+  std::optional<LevelDelta<Level>> delta_;      ///< where less is read so
+  const RowSymmetry* symmetry_;                 ///< null: there is none
   AliveRows alive_;
-  std::int64_t copied_ = 0;    ///< rows that would have been worked out
-  std::int64_t mirrored_ = 0;  ///< rows that would not, as they are images
+  std::int64_t copied_ = 0;          ///< rows that would have been worked out
+  std::int64_t permuted_count_ = 0;  ///< rows that are none of them, as they are not canonical
   std::int64_t first_unit_ = 0;
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
@@ -360,9 +361,9 @@ class WaveRunner {
   Level lowest_ = kTop;            ///< to which a cell has sunk in this sweep
   std::uint32_t batch_ = 0;        ///< number of the last batch
   std::deque<Worker> workers_;
-  std::vector<Piece> pieces_;
+  std::vector<Task> tasks_;
   std::vector<Copy> copies_;
-  WaveNews::Scratch scratch_;
+  DirtyRows::Scratch scratch_;
 };
 
 }  // namespace
@@ -380,7 +381,7 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
     counts.rows_copied = runner.copied_rows();
     if (!runner.goes_on(counts.sweeps, visited)) break;
   }
-  counts.rows_copied += runner.mirrored_rows();
+  counts.rows_copied += runner.permuted_rows();
   for (std::int64_t* rows : {&counts.rows_visited, &counts.rows_copied, &counts.rows_skipped})
     *rows = sum_of_all(engine.share(), *rows);
   return counts;

@@ -9,13 +9,13 @@
 
 namespace coordreq {
 
-/// How much work a fixed point took, of all processes together. The same whatever the number of threads.
+/// How much work a fixed point took, of all processes together. The same for any number of threads.
 struct WaveCounts {
   std::int64_t sweeps = 0;
-  std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
-  std::int64_t rows_copied = 0;   ///< rows that got the levels of one worked out just before
+  std::int64_t rows_visited = 0;  ///< visits: a row counts each time that its levels are worked out
+  std::int64_t rows_copied = 0;   ///< rows that got the levels of a row worked out in the same sweep
   std::int64_t rows_skipped =
-      0;  ///< rows whose levels can still sink, passed over as nothing near them had changed
+      0;  ///< rows whose levels can still sink, passed over as no row that they can meet had changed
 
   void add(const WaveCounts& other) {
     sweeps += other.sweeps;
@@ -30,27 +30,26 @@ struct WaveStep {
   std::int64_t sweep = 0;      ///< number of the sweep under way
   std::int64_t visited = 0;    ///< rows that it has worked out so far
   std::int64_t rows_left = 0;  ///< rows that it has not come to yet, of those whose cells can still be lost
-  std::int64_t rows = 0;       ///< all of those
+  std::int64_t rows = 0;       ///< all rows whose cells can still be lost
   /// The greatest i such that the first i sets of the sequence (see RowOperator) are known to be final: no
-  /// cell will have another level up to i than it has now. -1: nothing is known.
+  /// cell will have another level up to i than it has now. -1: none is known to be.
   std::int64_t layer = -1;
-  /// What the work can be taken up from later; empty where it is not at such a point. Several processes are
-  /// at one together, each with what it holds.
+  /// The levels, from which the work can be taken up later; empty at a step where it cannot. Several
+  /// processes come to such a step together, each with the rows that it holds.
   std::span<const NumberRows> state;
 };
 
-/// Looks on while a fixed point is worked out, and says where to take up work that was broken off.
+/// Observes work on a fixed point, and says where to take up work that was broken off.
 struct WaveWatch {
-  /// Told often, between two pieces of work, by the thread that asked for the fixed point; may be empty. What
-  /// it throws ends the work.
+  /// Called often, between two batches, by the thread that asked for the fixed point; may be empty. An
+  /// exception from it ends the work.
   std::function<void(const WaveStep&)> step;
-  /// Levels that `step` has been shown once, under the same problem; taken away. Null: begin at the start.
+  /// Levels that `step` was given under the same problem; moved from. Null: begin at the start.
   ///
   /// The result is the same. At any step the levels L lie above the greatest solution G, since they began
   /// above it and only sink by level(x) <- 1 + op(level)(x), under which nothing above G gets below it. And
   /// 1 + op(L) <= L: it holds at the start, and where a row has sunk to 1 + op(L), op of the lower levels is
-  /// nowhere higher than it was. So L is as good a start as any, however much of it a sweep had seen, if
-  /// every row is looked at again.
+  /// nowhere higher than it was. So L is as good a start as any, if every row is looked at again.
   LevelMap* resumed = nullptr;
 };
 

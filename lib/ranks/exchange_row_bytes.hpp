@@ -22,8 +22,8 @@ template <class IsSent, class BytesOf>
   return message;
 }
 
-/// Takes such a message in. @param row_bytes of every row @param take is given the number of a row of the
-/// halo and its bytes
+/// Takes such a message in. @param row_bytes of every row @param take is given the number of a ghost
+/// row and its bytes
 template <class Take>
 void take_rows(const Bytes& message, std::size_t row_bytes, const Take& take) {
   for (MessageReader reader(message); !reader.is_at_end();) {
@@ -32,7 +32,7 @@ void take_rows(const Bytes& message, std::size_t row_bytes, const Take& take) {
   }
 }
 
-/// Sends what stands in rows to the ranks in whose halo they are, and takes in what these send. Together.
+/// Sends what stands in rows to the ranks whose ghost rows they are, and takes in what these send. Together.
 template <class IsSent, class BytesOf, class Take>
 void exchange_row_bytes(const RowShare& share, std::size_t row_bytes, const IsSent& is_sent,
                         const BytesOf& bytes_of, const Take& take) {

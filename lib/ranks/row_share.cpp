@@ -40,7 +40,7 @@ std::vector<Range> runs_of(const Bytes& message) {
 RowShare::RowShare(Ranks& ranks, std::vector<std::int64_t> bounds)
     : ranks_(&ranks), bounds_(std::move(bounds)), held_{own()} {}
 
-void RowShare::set_halo(const std::vector<std::uint8_t>& is_met) {
+void RowShare::set_ghosts(const std::vector<std::uint8_t>& is_met) {
   peers_.clear();
   held_.clear();
   for (int r = 0; r < ranks_->count(); ++r) {
@@ -57,7 +57,7 @@ void RowShare::set_halo(const std::vector<std::uint8_t>& is_met) {
   std::erase_if(peers_, [](const Peer& peer) { return peer.sent.empty() && peer.received.empty(); });
 }
 
-std::vector<Range> halo_rows(const RowShare& share) {
+std::vector<Range> ghost_rows(const RowShare& share) {
   std::vector<Range> runs = share.held();
   std::erase_if(runs,
                 [own = share.own()](Range run) { return own.begin <= run.begin && run.end <= own.end; });

@@ -9,8 +9,8 @@
 
 namespace coordreq {
 
-/// Which rows of a grid are whose, and which ones of others a rank holds beside its own: its *halo*, the rows
-/// that the posts of its own can meet. Rows keep the numbers that they have in the whole grid.
+/// Which rows of a grid are whose, and which ones of others a rank holds beside its own: its *ghost
+/// rows*, which the posts of its own can meet. Rows keep the numbers that they have in the whole grid.
 class RowShare {
  public:
   using Range = ThreadTeam::Range;
@@ -29,9 +29,9 @@ class RowShare {
            1;
   }
 
-  /// Together: chooses the halo. @param is_met [row] not 0 for the rows that posts of own rows can meet
-  void set_halo(const std::vector<std::uint8_t>& is_met);
-  /// The rows of this rank and of its halo, ascending.
+  /// Together: chooses the ghost rows. @param is_met [row] not 0 for the rows that posts of own rows can meet
+  void set_ghosts(const std::vector<std::uint8_t>& is_met);
+  /// The rows of this rank and its ghost rows, ascending.
   [[nodiscard]] const std::vector<Range>& held() const { return held_; }
 
   [[nodiscard]] bool holds(std::int64_t row) const {
@@ -40,7 +40,7 @@ class RowShare {
     return after != held_.end() && after->begin <= row;
   }
 
-  /// A rank whose halo has rows of this one, or the other way round.
+  /// A rank whose ghost rows are rows of this one, or the other way round.
   struct Peer {
     int rank = 0;
     std::vector<Range> sent;      ///< own rows that it holds too
@@ -56,7 +56,7 @@ class RowShare {
 };
 
 /// The rows that a rank holds beside its own, ascending.
-[[nodiscard]] std::vector<RowShare::Range> halo_rows(const RowShare& share);
+[[nodiscard]] std::vector<RowShare::Range> ghost_rows(const RowShare& share);
 
 /// The rows that a rank owns, or all of them. @param share null: there is one process
 [[nodiscard]] inline RowShare::Range own_rows(const RowShare* share, std::int64_t rows) {

@@ -21,9 +21,9 @@ nlohmann::json plain_spec() {
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + u", "y": "y + v"}}, "safe": "x + y <= 5"})");
 }
 
-/// What is at the top of the results, but for states and inputs. Colons keep other names apart.
+/// The names at the top of a results file, but for states and inputs. Names with a colon cannot clash.
 Names written(const ProblemSpec& spec) {
-  Names names = {"spec", "spec_json"};  // that the file says of itself
+  Names names = {"spec", "spec_json"};  // of every file
   for (const Field& field : result_fields(spec)) {
     const std::string name = field.path.substr(1, field.path.find('/', 1) - 1);
     if (name.find(':') == std::string::npos) names.insert(name);

@@ -16,7 +16,7 @@
 namespace coordreq {
 namespace {
 
-/// a is read by cells, b is a shift, which no other state depends on; c is a table of c alone.
+/// The table of a is by cells; b is a shift on which no other state depends; the table of c is over c alone.
 ProblemSpec coupled() {
   return read_spec(R"json({"coordreq": 1, "name": "coupled",
     "states": [{"name": "a", "lower": 0, "upper": 8, "step": 1, "outside": "saturate"},

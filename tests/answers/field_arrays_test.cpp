@@ -71,12 +71,12 @@ TEST(FieldArrays, LayersListTheirCellsInAscendingOrder) {
   const DelayLayers layers{.layers_of = levels(7, {2, 0, 1, kTop, 2, 0, 1}), .sizes = {5, 3, 1}};
   const CellOrder order(grid({7}));
   EXPECT_EQ(layer_starts(layers), (std::vector<std::uint64_t>{0, 2, 4, 5}));
-  const auto latest = std::make_shared<LatestCells>();
-  const ResultArray cells = layer_cells(layers, order, latest);
+  const auto cache = std::make_shared<CellsCache>();
+  const ResultArray cells = layer_cells(layers, order, cache);
   EXPECT_EQ(cells.type, ElementType::uint32);
   EXPECT_EQ(filled<std::uint32_t>(cells, 0, 5), (std::vector<std::uint32_t>{2, 6, 0, 4, 3}));
   const DelayLayers others{.layers_of = levels(7, {0, 1, 0, 0, kTop, 0, 0}), .sizes = {2, 1}};
-  EXPECT_EQ(filled<std::uint32_t>(layer_cells(others, order, latest), 0, 2),
+  EXPECT_EQ(filled<std::uint32_t>(layer_cells(others, order, cache), 0, 2),
             (std::vector<std::uint32_t>{1, 4}));
   EXPECT_EQ(filled<std::uint32_t>(cells, 3, 2), (std::vector<std::uint32_t>{4, 3}));
 }

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = RowSegment::Kind;
 
-/// States that stay where they are: what the slices say is given by hand. No dimension is taken first.
+/// States that stay where they are: slices are given by hand. The engine shares no minima.
 Abstraction stillness(const std::vector<GridDimension>& dimensions) {
   Abstraction abstraction{.grid = UniformGrid(dimensions), .inputs = InputSpace({})};
   for (std::size_t i = 0; i < dimensions.size(); ++i) {
@@ -130,7 +130,7 @@ struct Levels {
     }
   }
 
-  /// At an index of the last dimension that may be outside, in a row.
+  /// The level at an index of the last dimension, which may be outside, in a row.
   [[nodiscard]] Level at(std::int64_t row, std::int64_t k) const {
     const std::int64_t n = problem.dimensions.back().count;
     const RowEnds ends = problem.ends();
@@ -181,7 +181,7 @@ struct Levels {
       }
     }
     if (last.kind == Kind::gone) return kTop;
-    // Even where all has left in another dimension, an unsafe end of the row blocks.
+    // An unsafe end of the row blocks, even if the post has left in another dimension.
     if (last.kind == Kind::shifted && gone) {
       const std::int64_t n = problem.dimensions.back().count;
       const bool blocks = (c + last.range.first < 0 && problem.ends().below == Outside::unsafe) ||
@@ -253,7 +253,7 @@ TYPED_TEST(BoxReaderTest, BoxesAreReadAsCellByCell) {
   }));
 }
 
-/// So many levels that only two sets of shared minima are kept, which must give way to one another.
+/// Rows so long that only two sets of shared minima are kept, which replace one another.
 TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
   Problem problem({dimension(8, Outside::saturate, Outside::saturate),
                    dimension(1024 / sizeof(TypeParam), Outside::saturate, Outside::saturate),

@@ -23,7 +23,7 @@ ProblemSpec plane(const std::string& equations, const std::string& outside = "un
                    "test");
 }
 
-/// What is told, and what the engine makes of the same spec.
+/// Compares estimates with the sizes of what the engine makes of the same spec.
 void expect_told(const ProblemSpec& spec) {
   ThreadTeam team(1);
   const Model model(spec, table_shapes(spec));

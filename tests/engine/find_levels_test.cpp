@@ -7,7 +7,8 @@
 namespace coordreq {
 namespace {
 
-/// Says at once what every cell will have: one less than `wanted`, the greatest level where that is negative.
+/// An operator that returns at once the final level less one of every cell; the greatest level where `wanted`
+/// is negative.
 template <class Level>
 class KnownLevels final : public RowOperator<Level> {
  public:

@@ -6,7 +6,7 @@
 
 namespace coordreq {
 
-/// Those that kernels are built for and that this processor has.
+/// The instruction sets that kernels are built for and that this processor has.
 inline std::vector<InstructionSet> sets_at_hand() {
   std::vector<InstructionSet> sets = {InstructionSet::portable};
   if (best_instruction_set() != InstructionSet::portable) sets.push_back(InstructionSet::avx2);

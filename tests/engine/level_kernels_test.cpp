@@ -13,7 +13,7 @@ namespace coordreq {
 namespace {
 
 /// A row of n levels that begins anywhere, with the rest of its last block after it. Small and extreme levels
-/// are frequent, as they are in life.
+/// are frequent, as in analyses.
 template <class Level>
 struct Row {
   std::vector<Level> storage;

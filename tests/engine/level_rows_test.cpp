@@ -15,7 +15,7 @@ namespace {
 
 using ByteRows = LevelRows<std::uint8_t>;
 
-/// The row 7 8 9 with all it goes on with: two cells before, four after.
+/// The row 7 8 9 with its margins: two cells before, four after.
 std::vector<int> closed(RowEnds ends) {
   ByteRows levels(2, 3, {2, 4}, ends);
   levels.change_row(1, [](std::uint8_t* cells) { std::iota(cells, cells + 3, std::uint8_t{7}); });
@@ -37,7 +37,7 @@ TEST(LevelRows, ChangingOneRowLeavesTheOthers) {
   }
 }
 
-/// Level of cell (i, j) of a row of 3 times 2 cells, or of what lies beyond: rule after rule, the slower
+/// Level of cell (i, j) of a row of 3 times 2 cells, or beyond its ends: rule after rule, the slower
 /// dimension first, an unsafe end being stronger than any other.
 int expected_level(std::int64_t i, std::int64_t j, RowEnds slow, RowEnds fast) {
   bool gone = false;

@@ -37,7 +37,8 @@ TEST(RowPlace, StepsToTheNextAndTheLastBlockOfRows) {
 }
 
 TEST(RowBox, PlacesOfABoxAreCountedWithAnyStrides) {
-  const std::vector<IndexRange> ranges{{1, 2}, {3, 5}};  // the second goes on at the other end of a ring of 4
+  const std::vector<IndexRange> ranges{{1, 2},
+                                       {3, 5}};  // the second range goes on at the other end of a ring of 4
   std::vector<std::int64_t> counter, found;
   const bool any = any_in_box(
       ranges, [](std::size_t i) { return std::int64_t{i == 0 ? 3 : 4}; },

@@ -19,7 +19,7 @@ std::int64_t random_sum() {
   return (whole << 32) + fraction;
 }
 
-/// One dimension with its runs, which begin anywhere and have the rest of a block after them.
+/// One dimension with its profiles, which begin anywhere and have the rest of a block after them.
 struct Dimension {
   std::vector<std::int64_t> lower, upper;
   std::vector<std::int32_t> whole[2];
@@ -45,8 +45,8 @@ struct Dimension {
         fraction[k][offset + c] = static_cast<std::uint32_t>(static_cast<std::uint64_t>(number));
       }
     }
-    sides.lower_run = {whole[0].data() + offset, fraction[0].data() + offset};
-    sides.upper_run = {whole[1].data() + offset, fraction[1].data() + offset};
+    sides.lower_profile = {whole[0].data() + offset, fraction[0].data() + offset};
+    sides.upper_profile = {whole[1].data() + offset, fraction[1].data() + offset};
   }
 
   [[nodiscard]] std::int64_t place(std::size_t c) const {
@@ -58,7 +58,7 @@ struct Dimension {
 };
 
 TEST(SumKernels, PlacesAreThoseOfTheSumsTakenIn64Bits) {
-  EXPECT_TRUE(rc::check("find_places", [] {
+  EXPECT_TRUE(rc::check("find_offsets", [] {
     const auto n = *rc::gen::inRange<std::size_t>(1, 120);
     const auto offset = *rc::gen::inRange<std::size_t>(0, 17);
     std::vector<Dimension> dimensions;
@@ -69,7 +69,7 @@ TEST(SumKernels, PlacesAreThoseOfTheSumsTakenIn64Bits) {
     const int origin = *rc::gen::inRange(-100000, 100000);
     for (const InstructionSet set : sets_at_hand()) {
       std::vector<std::int32_t> places(n + kLevelBlock);
-      sum_kernels(set).find_places(sides.data(), size, origin, places.data(), n);
+      sum_kernels(set).find_offsets(sides.data(), size, origin, places.data(), n);
       for (std::size_t c = 0; c < n; ++c) {
         std::int64_t expected = origin;
         for (const Dimension& dimension : dimensions) expected += dimension.place(c);

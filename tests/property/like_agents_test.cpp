@@ -34,19 +34,20 @@ void expect_same_cells(const FastAnalysis& fast, const FastAnalysis& joined) {
   }
 }
 
-/// Work that was broken off where images were not looked after, some rows of it done and some not.
+/// Work that was broken off without symmetry, some rows of it done and some not.
 void expect_same_when_resumed(const FastAnalysis& fast, ThreadTeam& team) {
-  const std::optional<RowMirror> mirror =
-      fast.answers->ground.mirror(single_classes(fast.abstraction.inputs));
+  const std::optional<RowSymmetry> symmetry =
+      fast.answers->ground.symmetry(single_classes(fast.abstraction.inputs));
   const Synthesis synthesis = fast.answers->ground.spec.controller.synthesis;
-  if (!mirror) return;
+  if (!symmetry) return;
   auto levels = fast.engine.make_levels<std::uint8_t>(fast.safe, team);
   for (std::int64_t row = 0; row < levels.rows(); ++row) {
     if (*rc::gen::arbitrary<bool>()) put_levels_of(fast.invariance.collision_time, row, levels);
   }
   LevelMap begun(std::move(levels));
-  const Invariance again = find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {.resumed = &begun},
-                                           team, {.mirror = &*mirror}, fast.answers->ground.over_or_null());
+  const Invariance again =
+      find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {.resumed = &begun}, team,
+                      {.symmetry = &*symmetry}, fast.answers->ground.over_or_null());
   for (std::int64_t x = 0; x < fast.safe.cells(); ++x)
     RC_ASSERT(again.collision_time.at(x) == fast.invariance.collision_time.at(x));
 }
@@ -56,10 +57,10 @@ void classify(const FastAnalysis& fast) {
   const bool has_layers = fast.layers[last].sizes.size() > 1;
   RC_CLASSIFY(fast.answers->ground.like_agents.size() == 2, "two alike");
   RC_CLASSIFY(fast.answers->ground.like_agents.size() == 3, "three alike");
-  RC_CLASSIFY(fast.actions[last].mirror.has_value(), "rows found once");
-  RC_CLASSIFY(fast.actions[last].mirror && has_layers, "rows found once, with layers");
-  RC_CLASSIFY(fast.actions[last].mirror && fast.answers->ground.tiles, "and tiles");
-  RC_CLASSIFY(fast.actions[last].mirror && !fast.abstraction.tubes.empty(), "and tubes");
+  RC_CLASSIFY(fast.actions[last].symmetry.has_value(), "rows found once");
+  RC_CLASSIFY(fast.actions[last].symmetry && has_layers, "rows found once, with layers");
+  RC_CLASSIFY(fast.actions[last].symmetry && fast.answers->ground.tiles, "and tiles");
+  RC_CLASSIFY(fast.actions[last].symmetry && !fast.abstraction.tubes.empty(), "and tubes");
 }
 
 TEST(LikeAgents, GiveTheSameInWhateverOrder) {
@@ -78,11 +79,11 @@ TEST(LikeAgents, GiveTheSameInWhateverOrder) {
     const FastAnalysis joined(spec, std::move(abstraction), team);
     expect_same_cells(fast, joined);
     classify(fast);
-    RC_CLASSIFY(joined.actions.back().mirror.has_value(), "rows along several dimensions found once");
+    RC_CLASSIFY(joined.actions.back().symmetry.has_value(), "rows along several dimensions found once");
   }));
 }
 
-/// Rows are added up, and posts of the first of two images lie in the second mostly.
+/// Rows are added up, and posts of the canonical one of two rows lie in the other mostly.
 TEST(LikeAgents, GiveTheSameBesideACoupledMotion) {
   const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "turning",
     "states": [{"name": "p0", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"},
@@ -101,12 +102,12 @@ TEST(LikeAgents, GiveTheSameBesideACoupledMotion) {
   ThreadTeam team(2);
   const FastAnalysis fast(spec, team);
   EXPECT_FALSE(fast.engine.posts().is_cut());
-  EXPECT_TRUE(fast.actions.back().mirror.has_value());
+  EXPECT_TRUE(fast.actions.back().symmetry.has_value());
   EXPECT_GT(fast.layers.back().sizes.size(), 2U);
   expect_agreement(fast, plainly(spec, fast), team);
 }
 
-/// Rows that nothing was left to do in have work again where an image of theirs has changed.
+/// Rows that nothing was left to do in have work again where a permuted row of theirs has changed.
 TEST(LikeAgents, GiveTheSameForAListOfPartitions) {
   const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "listed",
     "states": [{"name": "p0", "lower": 0, "upper": 6, "step": 1, "outside": "saturate"},
@@ -124,7 +125,7 @@ TEST(LikeAgents, GiveTheSameForAListOfPartitions) {
                                      "listed");
   ThreadTeam team(2);
   const FastAnalysis fast(spec, team);
-  EXPECT_TRUE(fast.actions[1].mirror.has_value());
+  EXPECT_TRUE(fast.actions[1].symmetry.has_value());
   EXPECT_EQ(fast.layers[1].sizes, (std::vector<std::int64_t>{5580, 4260, 240, 0}));
   expect_agreement(fast, plainly(spec, fast), team);
 }

@@ -27,13 +27,13 @@ TEST(RowShare, OwnersAreThoseOfTheRunsEmptyOnesLeftOut) {
   });
 }
 
-TEST(RowShare, OwnersHearOfHalos) {
+TEST(RowShare, OwnersHearOfGhosts) {
   ThreadRanks::run(3, [](Ranks& ranks) {
     RowShare share(ranks, {0, 4, 8, 12});
     std::vector<std::uint8_t> is_met(12, 0);
     if (ranks.rank() == 0) is_met = {1, 1, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1};
     if (ranks.rank() == 2) is_met[2] = 1;
-    share.set_halo(is_met);
+    share.set_ghosts(is_met);
     if (ranks.rank() == 0) {
       EXPECT_EQ(runs(share.held()), (Runs{{0, 4}, {4, 5}, {6, 8}, {11, 12}}));
       ASSERT_EQ(share.peers().size(), 2U);

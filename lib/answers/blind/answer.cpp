@@ -32,7 +32,7 @@ ClassFibres fibres_of(const ProblemSpec& spec, const UniformGrid& grid, const Pa
   return fibres;
 }
 
-/// What the classes of a partition can do and see, and the layers of those that see everything.
+/// The actions and the sight of the classes of a partition, and the layers of agents who see everything.
 struct BlindSight {
   BlindSight(const Answers& answers, std::size_t p, const StageWork& work)
       : grouping(*answers.ground.engine,
@@ -82,7 +82,7 @@ void find_blind_layers_of(std::size_t p, Answers& answers, const StageWork& work
   follow_from_levels(ground.spec.coordination.max_delay, work.team, own);
 }
 
-/// Makes the tables as large as they are, for those that are loaded.
+/// Gives tables their sizes, before they are loaded.
 void size_tables(const Answers& answers, std::size_t p, std::vector<SilentTable>& tables) {
   const ProblemSpec& spec = answers.ground.spec;
   const PartitionSpec& partition = spec.coordination.partitions[p];
@@ -109,7 +109,7 @@ void serialise_tables(Archive& archive, std::int64_t steps, std::vector<SilentTa
   }
 }
 
-/// The value that stands for a level of K, as DelayLayers has it.
+/// The delay that a level of K stands for, as DelayLayers has it.
 template <class Level>
 std::int64_t steps_of_level(Level level, std::int64_t top) {
   return level == LevelRows<Level>::kTop ? top : std::int64_t{level} - 1;
@@ -134,7 +134,7 @@ std::int64_t count_equal(const Ground& ground, const CellSet& invariant, const D
   return sum_of_all(ground.shared_rows(), equal);
 }
 
-/// The levels and tables that follow from those of B.
+/// Finds the levels of blind delays, and the tables, from the levels of B.
 void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
   BlindPartition& own = answers.get<Blind>().partitions[p];
@@ -247,7 +247,7 @@ MemoryNeed blind_memory(const EngineSizes& sizes, int threads) {
     need.work =
         std::max(need.work, sizes.groups(classes) + projection_bytes(sizes, classes) + masks + tables);
   }
-  need.work += sizes.wave(threads) + sizes.recent_levels() + sizes.set();
+  need.work += sizes.wave(threads) + sizes.level_delta() + sizes.set();
   return need;
 }
 

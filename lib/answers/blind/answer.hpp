@@ -15,18 +15,18 @@
 
 namespace coordreq {
 
-/// How long a partition can be silent if its classes see only themselves (contract, section 8).
+/// How long the classes of a partition can be silent if they see only themselves (contract, section 8).
 struct BlindPartition {
   DelayLayers layers;               ///< B: its delays are the countdowns
-  DelayLayers delays;               ///< the same, with the levels of find_blind_delays()
-  std::int64_t greatest = 0;        ///< the greatest of these delays that is finite
-  std::int64_t as_much = 0;         ///< cells of K where they are those of agents who see everything
-  std::vector<SilentTable> tables;  ///< [class] none of one that sees all states
-  /// Q^k is told for k up to this; it serves all greater k.
+  DelayLayers delays;               ///< B, with the levels of find_blind_delays()
+  std::int64_t greatest = 0;        ///< the greatest finite delay of find_blind_delays()
+  std::int64_t as_much = 0;         ///< cells of K whose blind delay is that of agents who see everything
+  std::vector<SilentTable> tables;  ///< [class] empty for a class that sees all states
+  /// The tables have Q^k for k up to this, which serves all greater k.
   [[nodiscard]] std::int64_t table_steps() const;
 };
 struct Blind {
-  /// In the order of the spec. Of a partition of one class nothing is kept: its delays are those of Z.
+  /// In the order of the spec. Empty for a partition of one class, whose delays are those of Z.
   std::vector<BlindPartition> partitions;
 };
 
@@ -36,7 +36,7 @@ struct Blind {
 [[nodiscard]] MemoryNeed blind_memory(const EngineSizes& sizes, int threads);
 void summarise_blind(const Answers& answers, Json& summary, Json& work);
 void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info);
-/// Other answers still speak of agents who see everything.
+/// Warns that other answers are about agents who see everything.
 [[nodiscard]] Warnings advise_on_blind(const Answers& answers);
 
 }  // namespace coordreq

@@ -66,7 +66,7 @@ LevelMap run(const BlindProblem& problem, LevelMap& start, const WaveWatch& watc
 LevelMap find_blind_levels(const BlindProblem& problem, const WaveWatch& watch, ThreadTeam& team,
                            WaveCounts& counts) {
   if (watch.resumed != nullptr) return run(problem, *watch.resumed, watch, team, counts);
-  // With no step at all nobody asks for B_1.
+  // Without any step B_1 is not needed.
   if (problem.max_delay == 0) return first_levels(problem, nullptr);
   const LevelMap& layers = problem.layers.layers_of;
   const std::optional<CellSet> common =

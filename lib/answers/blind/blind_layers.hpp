@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-/// What the layers B of a partition of several classes are made of (contract, section 8).
+/// The inputs to find the layers B of a partition of several classes (contract, section 8).
 struct BlindProblem {
   const SilentSources& sources;
   const RowHull& hull;
@@ -20,13 +20,13 @@ struct BlindProblem {
 
 /// B_0 = K, B_1 (find_common_cells()), and from there on the operator of Z. Together.
 ///
-/// B_k is a part of Z_k, and where a cell is not in B_1 its level is 1 for ever, so that the ordinary wave
-/// finds them from the levels of Z, lowered to 1 there. Where B_1 = Z_1 nothing is left to do.
+/// B_k is a part of Z_k, and a cell outside B_1 has level 1 for ever, so that the ordinary wave finds the
+/// layers from the levels of Z, lowered to 1 outside B_1. Where B_1 = Z_1 the levels are those of Z.
 [[nodiscard]] LevelMap find_blind_levels(const BlindProblem& problem, const WaveWatch& watch,
                                          ThreadTeam& team, WaveCounts& counts);
 
 /// blind_delay + 1 of the cells of K, in own rows: one more than the number of sets B_0, B_1, ... that hold
-/// all posts under IND_C; kTop if all do, 0 outside K.
+/// all posts under IND_C; kTop if all of these sets do, 0 outside K.
 /// @param levels of B
 [[nodiscard]] LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels,
                                          ThreadTeam& team);

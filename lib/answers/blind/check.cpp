@@ -21,7 +21,7 @@
 namespace coordreq {
 namespace {
 
-/// A class of a partition: what it sees, what the file says that it may do, and what it may at each cell.
+/// A class of a partition: the states that it sees, its table in the file, and its actions at each cell.
 struct BlindClass {
   BlindClass(const CheckGround& ground, const PartitionSpec& partition, std::size_t c)
       : name(class_name(ground.spec->agents, partition.classes[c])),
@@ -43,7 +43,7 @@ struct BlindClass {
   [[nodiscard]] bool has(std::int64_t cell, std::int64_t a) const {
     return (admitted[at(cell * own.bytes() + a / 8)] >> (a % 8) & 1U) != 0;
   }
-  /// Where the row of k steps begins in the bytes of the table.
+  /// Where the row of k steps and a fibre begins in the bytes of the table.
   [[nodiscard]] std::size_t place(std::int64_t k, std::int64_t fibre) const {
     return at(((k - 1) * fibres + fibre) * own.bytes());
   }
@@ -65,11 +65,11 @@ struct BlindClass {
   std::vector<std::size_t> seen;
   const UniformGrid& grid;
   std::int64_t fibres = 1;
-  const std::vector<std::int64_t>* table = nullptr;  ///< of the file; null: it sees all states
-  std::vector<std::uint8_t> admitted;                ///< [cell * bytes] A_c, of the cells that were looked at
+  const std::vector<std::int64_t>* table = nullptr;  ///< of the file; null: the class sees all states
+  std::vector<std::uint8_t> admitted;                ///< [cell * bytes] A_c, of the cells checked
 };
 
-/// What all threads share about one partition.
+/// Data of one partition that all threads share.
 struct BlindPartitionCheck {
   BlindPartitionCheck(const CheckGround& ground, std::size_t p)
       : claims(*ground.spec, *ground.claims, p, blind_layers_meant()),
@@ -85,7 +85,7 @@ struct BlindPartitionCheck {
       classes.emplace_back(ground, claims.partition, c);
   }
 
-  /// The greatest k with x in B_k, as claimed: kForever where the file tells no end of it.
+  /// The greatest k with x in B_k, as claimed; kForever if there is no greatest.
   [[nodiscard]] std::int32_t depth(std::int64_t cell) const {
     const std::int32_t steps = claims.delay[at(cell)];
     return most && *most > 0 && steps == *most ? kForever : steps;
@@ -94,9 +94,9 @@ struct BlindPartitionCheck {
   PartitionClaims claims;  ///< with countdowns for delays
   const std::vector<std::int32_t>& delays;
   const std::vector<std::int32_t>& of_sight;
-  std::optional<std::int64_t> most;  ///< max_delay, if that has cut B
+  std::optional<std::int64_t> most;  ///< max_delay, if it has stopped the iteration
   Tally delay, countdown, first, tables;
-  std::deque<BlindClass> classes;  ///< none if it is one
+  std::deque<BlindClass> classes;  ///< empty if the partition has one class
   std::atomic<std::int64_t> looked_at{0};
 };
 
@@ -111,7 +111,7 @@ class BlindChecker : public CellChecker {
       const std::int32_t outside = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
       const std::int32_t expected = cell.is_invariant() ? delay_by_definition(cell, own) : outside;
       compare(own.delay, cell, own.delays[cell.at()], expected);
-      // In B_1 it is the same whether the cell is known; who is in B_1 is looked at later.
+      // In B_1 blind delay and countdown agree; which cells are in B_1 is checked later.
       const std::int32_t claimed = own.claims.delay[cell.at()];
       const bool is_out = claimed == 0 && expected >= 0 && !own.classes.empty() && !cell.is_over();
       compare(own.countdown, cell, claimed, is_out ? 0 : expected);
@@ -158,7 +158,7 @@ class BlindChecker : public CellChecker {
     add_wrong_steps(tally, cell, claimed, expected);
   }
 
-  /// Rows may hold nothing that is not admissible in a cell in which the system may be.
+  /// No row may hold an action that is not admissible in a cell in which the system may be.
   void check_rows(const CheckedCell& cell, BlindPartitionCheck& own) const {
     const std::int32_t depth = own.depth(cell.number());
     for (const BlindClass& one : own.classes) {
@@ -235,7 +235,8 @@ class BlindCheck : public AnswerCheck {
     tally.add_wrong(number, [&] { return text; });
   }
 
-  /// As claimed: of a goal that ends the task, which is in every B_k and asks nothing of its fibres.
+  /// As claimed: the cell is in a goal that ends the task. It is in every B_k, and removes no action from its
+  /// fibres.
   [[nodiscard]] bool is_over(std::int64_t cell) const {
     return ground_.spec->ends_at_goal && ground_.claims->values("/arrival")[at(cell)] == 0;
   }
@@ -269,13 +270,14 @@ class BlindCheck : public AnswerCheck {
     }
   }
 
-  /// What cells of one depth have in common, by fibre; and whether there are any.
+  /// The common actions of the cells of one depth in each fibre; and whether there are such cells.
   struct CommonActions {
     std::vector<std::uint8_t> bytes;   ///< as in the table
     std::vector<std::uint8_t> is_met;  ///< [(k - 1) * fibres + fibre]
   };
 
-  /// Each row is what all cells of B_k in the fibre have in common: those of this depth, and all deeper ones.
+  /// Each row must be the common actions of all cells of B_k in the fibre: those of this depth, and all
+  /// deeper ones.
   void check_table(BlindPartitionCheck& own, const BlindClass& one) const {
     const std::int64_t rows = one.rows(), bytes = one.own.bytes();
     CommonActions common{std::vector<std::uint8_t>(one.table->size(), 0xFF),
@@ -298,7 +300,7 @@ class BlindCheck : public AnswerCheck {
     }
   }
 
-  /// Takes in the row of one step more, which is done.
+  /// Whether a row of the table is right, given the row of one step more, whose common actions are added.
   static bool is_row(const BlindClass& one, std::int64_t k, std::int64_t fibre, CommonActions& common) {
     const std::size_t place = one.place(k, fibre), step = at(one.fibres * one.own.bytes());
     std::uint8_t& is_met = common.is_met[at((k - 1) * one.fibres + fibre)];

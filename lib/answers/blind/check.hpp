@@ -8,9 +8,9 @@
 
 namespace coordreq {
 
-/// Blind delays and countdowns by what the countdowns of the cells that can follow say, B_1 by its
-/// definition, and each row of a silent table as the intersection that it is (contract, section 8). Of a
-/// sample of cells rows are only looked at for actions too many, and B_1 is not. Null if all agents see
+/// Checks blind delays and countdowns by the countdowns of the cells that can follow, B_1 by its definition,
+/// and each row of a silent table as an intersection (contract, section 8). If only a sample of cells is
+/// checked, rows are looked at for actions too many alone, and B_1 is not checked. Null if all agents see
 /// everything.
 [[nodiscard]] std::unique_ptr<AnswerCheck> check_blind(const CheckGround& ground);
 /// Bytes a cell: the actions of each class there.

@@ -10,13 +10,12 @@
 
 namespace coordreq {
 
-/// A_c(x), of the cells of one row after another: for each action the cells that have it. One object a
-/// thread.
+/// A_c(x) of the cells of one row after another: for each action the cells that have it. One object a thread.
 class ClassRows {
  public:
   explicit ClassRows(const SilentSources& sources) : sources_(sources) {}
 
-  /// @pre K has cells in the row. @pre unchecked: it is an own one
+  /// @pre K has cells in the row. @pre unchecked: this process owns it
   void enter(const RowPlace& place) {
     REQUIRES(any_set(sources_.invariant.row(place.row)));
     row_ = place.row;

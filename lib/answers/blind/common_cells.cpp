@@ -11,12 +11,12 @@
 namespace coordreq {
 namespace {
 
-/// Counts of all actions in so many fibres are held at once.
+/// The most counts, of all actions in a batch of fibres, that are held at once.
 constexpr std::int64_t kMostCounts = std::int64_t{1} << 22;
 
-constexpr std::int32_t kWhole = -1;  ///< of a fibre: some action is in Q^1, or no cell of B_1 is in it
+constexpr std::int32_t kWhole = -1;  ///< marks a fibre that keeps all of its cells, or is not in the batch
 
-/// Takes the cells of one class after the other out of a set.
+/// Removes cells from a set, for one class after the other.
 class CellRemoval {
  public:
   CellRemoval(const SilentSources& sources, const std::vector<SilentTable>& tables, ThreadTeam& team,
@@ -25,7 +25,8 @@ class CellRemoval {
     for (int w = 0; w < team.size(); ++w) workers_.push_back({.rows = ClassRows(sources)});
   }
 
-  /// The fibres of which a class tells nothing apart keep all cells.
+  /// Fibres with a common action keep all cells; in the fibres `torn` cells without the most common action
+  /// are removed.
   void remove(std::size_t c, const std::vector<std::int64_t>& torn) {
     const SilentTable& table = tables_[c];
     const auto at_once = std::max<std::int64_t>(1, kMostCounts / table.actions);
@@ -42,11 +43,11 @@ class CellRemoval {
  private:
   struct Worker {
     ClassRows rows;
-    std::vector<Word> cells = {};  ///< of the row, those left in fibres of the batch
-    std::vector<Word> have = {};   ///< those of them with an action
+    std::vector<Word> cells = {};  ///< of the row, in fibres of the batch
+    std::vector<Word> have = {};   ///< of these, the cells with an action
   };
 
-  /// Calls `visit(place of the row, worker)` for rows that have cells in the batch.
+  /// Calls `visit(place, worker)` for rows that have cells in the batch.
   template <class Visit>
   void for_each_row_of_batch(std::size_t c, const Visit& visit) {
     const RowEngine& engine = sources_.projections.grouping().engine();
@@ -67,7 +68,7 @@ class CellRemoval {
     });
   }
 
-  /// Calls `visit(place of the fibre in the batch, action, lane)` for what cells of the row have.
+  /// Calls `visit(position of the fibre in the batch, action, lane)` for the actions of each cell of the row.
   template <class Visit>
   void for_each_action(std::size_t c, const RowPlace& place, Worker& worker, const Visit& visit) {
     const Fibres& fibres = *sources_.fibres[c];
@@ -80,7 +81,7 @@ class CellRemoval {
     }
   }
 
-  /// [place * actions + a] cells of the fibre that have the action, of all processes.
+  /// [position of the fibre * actions + a] cells of the fibre that have the action, of all processes.
   std::vector<std::int64_t> count_actions(std::size_t c, std::int64_t fibres) {
     const std::int64_t actions = tables_[c].actions;
     std::vector<std::int64_t> counts(at(fibres * actions), 0);
@@ -95,7 +96,7 @@ class CellRemoval {
     return counts;
   }
 
-  /// [place] the action of most cells, of equals the lowest.
+  /// [position of the fibre] the action that most cells have, the lowest of equals.
   static std::vector<std::int64_t> most_counted(const std::vector<std::int64_t>& counts,
                                                 std::int64_t actions) {
     std::vector<std::int64_t> most;
@@ -125,7 +126,7 @@ class CellRemoval {
   ThreadTeam& team_;
   CellSet& left_;
   std::vector<Worker> workers_;
-  std::vector<std::int32_t> places_;  ///< [fibre] in the batch, or kWhole
+  std::vector<std::int32_t> places_;  ///< [fibre] position in the batch, or kWhole
 };
 
 /// Z_1, in own rows.
@@ -149,7 +150,7 @@ std::optional<CellSet> find_common_cells(const SilentSources& sources, const Lev
                                          const std::vector<SilentTable>& tables, ThreadTeam& team) {
   std::optional<CellSet> left;
   for (std::size_t c = 0; c < tables.size(); ++c) {
-    // What classes before this one have taken out can only mend a fibre, which its counts then say.
+    // Removing cells for classes before this one can only mend a fibre; its counts show whether it has.
     std::vector<std::int64_t> torn;
     for (std::int64_t fibre = 0; fibre < tables[c].fibres(); ++fibre) {
       if (tables[c].is_torn(fibre)) torn.push_back(fibre);

@@ -26,7 +26,7 @@ namespace coordreq {
 namespace {
 
 constexpr std::int32_t kUnbounded = std::numeric_limits<std::int32_t>::max();
-/// Of one fibre no more are compared.
+/// The most cells of a fibre that are compared.
 constexpr std::int64_t kMostCells = 4096;
 
 using Sets = std::vector<std::vector<bool>>;  ///< [class][action]
@@ -36,7 +36,7 @@ struct Confusion {
   std::size_t class_number = 0;
   std::int64_t cell = 0, other = 0;
   std::vector<bool> actions, others_actions;
-  std::int64_t common = 0;  ///< actions of both
+  std::int64_t common = 0;  ///< actions that both cells have
 };
 
 std::int64_t count_common(const std::vector<bool>& one, const std::vector<bool>& other) {
@@ -76,7 +76,7 @@ class SightFinder {
         if (other == cell || delay_(other) < 1 || is_over(other)) continue;
         const std::vector<bool> actions = ground_.projections(other)[c];
         const std::int64_t common = count_common(own[c], actions);
-        if (common == std::count(actions.begin(), actions.end(), true)) continue;  // whatever serves there
+        if (common == std::count(actions.begin(), actions.end(), true)) continue;  // any action serves there
         if (least && common >= least->common) continue;
         least = {c, cell, other, own[c], actions, common};
         if (common == 0) return least;
@@ -86,12 +86,12 @@ class SightFinder {
   }
 
  private:
-  /// A goal that ends the task is reached there: nobody chooses anything.
+  /// Whether a goal that ends the task is reached at the cell: then nobody chooses anything.
   [[nodiscard]] bool is_over(std::int64_t cell) const {
     return ground_.spec->ends_at_goal && ground_.values(paths::kArrival)(cell) == 0;
   }
 
-  /// A cell that can follow under IND_C with this countdown, the first that is found.
+  /// The first cell found that can follow under IND_C and has this countdown.
   std::optional<std::int64_t> next_with(std::int64_t cell, std::int32_t countdown) {
     const Sets sets = ground_.projections(cell);
     std::optional<std::int64_t> found;
@@ -117,7 +117,7 @@ class SightFinder {
     return found;
   }
 
-  /// Cells of the fibre of a class, ascending, not too many.
+  /// Cells of the fibre of a class, ascending, at most kMostCells.
   [[nodiscard]] std::vector<std::int64_t> fibre(std::size_t c, std::int64_t cell) const {
     const std::vector<std::size_t> seen = seen_states(*ground_.spec, ground_.partition->classes[c]);
     std::vector<std::size_t> unseen;

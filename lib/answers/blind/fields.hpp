@@ -15,7 +15,7 @@ namespace paths {
 inline constexpr char kBlindDelay[] = "/blind_delay";
 inline constexpr char kBlindCountdown[] = "/blind_countdown";
 inline constexpr char kSilentLayer[] = "/silent_layer";
-/// Where the table of a class is, if it has one: has_silent_table().
+/// The path of the table of a class, if has_silent_table().
 [[nodiscard]] std::string silent(const ProblemSpec& spec, const PartitionSpec& partition,
                                  std::size_t class_number);
 
@@ -29,12 +29,12 @@ inline constexpr char kSilentLayer[] = "/silent_layer";
 /// everything.
 [[nodiscard]] Fields blind_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_blind_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
-/// B of a partition: that of Z where it has one class. @pre unchecked: they have been found
+/// B of a partition; Z if it has one class. @pre unchecked: the layers have been found
 [[nodiscard]] const DelayLayers& blind_layers(const Answers& answers, std::size_t p);
-/// The same with blind delays.
+/// B with the levels of blind delays; Z if the partition has one class.
 [[nodiscard]] const DelayLayers& blind_delays(const Answers& answers, std::size_t p);
 
 }  // namespace coordreq

@@ -29,7 +29,7 @@ class BlindPolicy : public CellPolicy {
   bool holds(std::int64_t /*cell*/) override { return true; }
   const Numbers& together(std::int64_t /*cell*/, const Numbers& admissible) override { return admissible; }
 
-  /// With no step left there is nothing that a class may do by itself.
+  /// With no step left a class may do nothing by itself.
   std::vector<Numbers> alone(std::int64_t cell, std::int32_t countdown, const Numbers& together,
                              const std::vector<InputClass>& classes) override {
     std::vector<Numbers> actions(classes.size());
@@ -56,11 +56,11 @@ class BlindPolicy : public CellPolicy {
 
  private:
   struct Class {
-    std::string table;  ///< its path; empty: the class sees everything
+    std::string table;  ///< path of its table; empty: the class sees everything
     std::vector<std::size_t> seen;
   };
 
-  /// Rows beyond the last one are like it.
+  /// Rows beyond the last one are equal to it.
   [[nodiscard]] Numbers row(const Class& own, std::int64_t cell, std::int32_t countdown) const {
     const std::int64_t rows = tables_->length(paths::kSilentLayer);
     std::vector<std::int64_t> place{std::min<std::int64_t>(countdown, rows) - 1};

@@ -18,7 +18,7 @@ void raise(std::uint8_t& place, std::uint8_t value) {
   }
 }
 
-/// The depth of each cell of a row, 0 outside B_1. @returns whether there is one above 0
+/// Finds the depth of each cell of a row, 0 outside B_1. @returns whether a depth is above 0
 template <class Level>
 bool find_depths(const Level* levels, ConstRow invariant, std::int64_t deepest,
                  std::vector<std::uint8_t>& depths, std::vector<Word>& inside) {
@@ -73,7 +73,7 @@ class TableBuilder {
   std::vector<Word> missing_;
 };
 
-/// Every value becomes the greatest that it has with any process. Together.
+/// Replaces every value by the greatest of all processes. Together.
 void take_greatest(const RowShare* share, std::vector<std::uint8_t>& values) {
   constexpr std::size_t kAtOnce = std::size_t{1} << 20U;
   if (share == nullptr) return;

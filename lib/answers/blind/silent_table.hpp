@@ -17,19 +17,20 @@ namespace coordreq {
 /// Q_c^k for all k, of a class c that does not see everything (contract, section 8): the actions that are in
 /// A_c(x) for all x of B_k in a fibre.
 ///
-/// Of each action it is kept how deep the deepest cell of the fibre is that lacks it. *Deep* is the greatest
-/// k with x in B_k; B_k shrinks, so that is all there is to say: an action is in Q^k if no cell of B_k lacks
-/// it. One byte each, whatever k is.
+/// The *depth* of a cell is the greatest k with x in B_k. For each action the table has the depth of the
+/// deepest cell of the fibre that lacks it: B_k shrinks, so that an action is in Q^k exactly if no cell of
+/// depth k or more lacks it. One byte an action, for all k together.
 struct SilentTable {
-  /// Steps that are told apart. For more that many is right, too, for Q only grows.
+  /// Greater numbers of steps count as this one, on the safe side, since Q^k only grows with k.
   static constexpr std::int64_t kMostSteps = 64;
 
   std::int64_t actions = 0;
-  std::vector<std::uint8_t> lacked;  ///< [fibre * actions + action] depth of that cell, 0: none of B_1
-  std::vector<std::uint8_t> met;     ///< [fibre] depth of its deepest cell
+  std::vector<std::uint8_t> lacked;  ///< [fibre * actions + action] depth of the deepest cell that lacks the
+                                     ///< action; 0: no cell of B_1 does
+  std::vector<std::uint8_t> met;     ///< [fibre] depth of the deepest cell
 
   [[nodiscard]] std::int64_t fibres() const { return static_cast<std::int64_t>(met.size()); }
-  /// Whether the action is in Q^k. No action is where no cell of B_k is in the fibre.
+  /// Whether the action is in Q^k, which is empty if no cell of B_k is in the fibre.
   /// @pre 1 <= k. @pre unchecked: k is at most the depth that the table was made for
   [[nodiscard]] bool allows(std::int64_t fibre, std::int64_t action, std::int64_t k) const {
     REQUIRES(1 <= k);
@@ -40,27 +41,27 @@ struct SilentTable {
   [[nodiscard]] bool is_torn(std::int64_t fibre) const;
 };
 
-/// [class] none for one that sees everything.
+/// [class] Nothing for a class that sees everything.
 using ClassFibres = std::vector<std::optional<Fibres>>;
 
-/// What tables are made of.
+/// The inputs to make tables.
 struct SilentSources {
-  const Projections& projections;  ///< which keep masks
+  const Projections& projections;  ///< that keep masks
   const CellSet& invariant;        ///< K, without a goal that ends the task
   const ClassFibres& fibres;
 };
 
-/// Tables of all classes but those that see everything. Together.
+/// [class] Tables, empty for a class that sees everything. Together.
 /// @param levels of K, Z_1, Z_2, ... or of B: as DelayLayers::layers_of
-/// @param deepest depths above it count as this one, as those of cells that are never lost do
+/// @param deepest depths above it, and cells that are never lost, count as this depth
 [[nodiscard]] std::vector<SilentTable> find_silent_tables(const SilentSources& sources,
                                                           const LevelMap& levels, std::int64_t deepest,
                                                           ThreadTeam& team);
 
-/// B_1: Z_1 without the cells that lack the action which a class would take in their fibre; one class after
-/// the other. Together.
+/// B_1: for one class after the other, Z_1 without the cells that lack the action that most cells of their
+/// fibre have. Together.
 /// @param layers of Z
-/// @param tables of these layers, for one step at the most
+/// @param tables of the layers, for at most one step
 /// @returns B_1 in own rows; nothing if it is Z_1
 [[nodiscard]] std::optional<CellSet> find_common_cells(const SilentSources& sources, const LevelMap& layers,
                                                        const std::vector<SilentTable>& tables,

@@ -18,15 +18,15 @@
 namespace coordreq {
 
 /// Which joint inputs a condition over states and inputs permits at the centre of a cell, exactly. Keeps no
-/// table: evaluates what is asked, and remembers it while only variables change that it does not mention. One
-/// object a thread.
+/// table: evaluates the condition for the cell asked about, and remembers the results as long as no variable
+/// changes that it mentions. One object a thread.
 class PermittedPairs {
  public:
-  /// @pre unchecked: all outlive this object. @param words, @param pointer for errors
+  /// @pre unchecked: the arguments outlive this object. @param words, pointer name the condition in errors
   PermittedPairs(const ProblemSpec& spec, const Program& condition, const UniformGrid& grid,
                  const InputSpace& inputs, std::string words, std::string pointer);
 
-  /// @throws SpecError where it cannot be decided
+  /// @throws SpecError where the condition cannot be decided
   void go_to(std::int64_t cell);
   [[nodiscard]] bool operator()(std::int64_t u) const {
     return permitted_[numbers_[static_cast<std::size_t>(u)]];
@@ -40,14 +40,14 @@ class PermittedPairs {
   const UniformGrid& grid_;
   const InputSpace& inputs_;
   std::string words_, pointer_;
-  std::vector<std::size_t> states_;  ///< mentioned
+  std::vector<std::size_t> states_;  ///< that the condition mentions
   std::vector<std::size_t> inputs_used_;
-  std::vector<std::int64_t> indices_;  ///< of the cell in those states
-  std::vector<std::size_t> numbers_;   ///< [u]: row-major over the inputs mentioned
-  std::vector<bool> permitted_;        ///< by that number
+  std::vector<std::int64_t> indices_;  ///< of the cell in states_
+  std::vector<std::size_t> numbers_;   ///< [u] row-major over inputs_used_
+  std::vector<bool> permitted_;        ///< [number]
   std::vector<RationalInterval> slots_;
   Evaluator<RationalInterval> evaluator_;
-  std::deque<CellTruth> of_cells_;  ///< one where memories are asked of whole cells, instead
+  std::deque<CellTruth> of_cells_;  ///< one, used instead, if memories are asked of whole cells
 };
 
 /// Which joint inputs `allow` permits, and the controller file lists. One object a thread.
@@ -63,13 +63,13 @@ class AllowedPairs {
   [[nodiscard]] bool operator()(std::int64_t u) const {
     return permits(u) && (!listed_ || listed_->test(cell_, u));
   }
-  /// The same, whatever the file lists.
+  /// Whether `allow` permits u, also if the file does not list it.
   [[nodiscard]] bool permits(std::int64_t u) const { return !allow_ || (*allow_)(u); }
 
  private:
   const std::optional<PackedPairs>& listed_;
   std::int64_t cell_ = 0;
-  std::optional<PermittedPairs> allow_;  ///< none: it permits everything
+  std::optional<PermittedPairs> allow_;  ///< nothing: all joint inputs are permitted
 };
 
 }  // namespace coordreq

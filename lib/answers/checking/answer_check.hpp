@@ -11,17 +11,17 @@
 
 namespace coordreq {
 
-/// Checks what one answer says of single cells. One object a thread.
+/// Checks one answer at single cells. One object a thread.
 class CellChecker {
  public:
   virtual ~CellChecker() = default;
   virtual void check(CheckedCell& cell) = 0;
 };
 
-/// The place of findings in a report; those of one section stand in the order of the answers.
+/// The section of a report in which findings stand; within a section they are in the order of the answers.
 enum class CheckSection : std::uint8_t { sets, choices, steps, modes, requirements, costs };
 
-/// What one answer says, checked by its definition and without anything that has computed it.
+/// The check of one answer, by its definition and without the code that has computed it.
 class AnswerCheck {
  public:
   explicit AnswerCheck(CheckSection section) : section_(section) {}
@@ -30,16 +30,16 @@ class AnswerCheck {
   AnswerCheck& operator=(const AnswerCheck&) = delete;
 
   [[nodiscard]] CheckSection section() const { return section_; }
-  /// Compares what is said of all cells together with what is said of each; no posts are needed.
-  /// @param sizes how many cells sets have; @returns what is no matter of these
+  /// Compares sizes and other figures in the file with the values of its cells; no posts are needed.
+  /// @param sizes compares numbers of cells of sets @returns the findings about other figures
   virtual std::vector<Finding> compare_sizes(Comparison& /*sizes*/) { return {}; }
-  /// Null: single cells are not looked at. @pre unchecked: this object outlives the result.
+  /// Null: single cells are not checked. @pre unchecked: this object outlives the result.
   [[nodiscard]] virtual std::unique_ptr<CellChecker> cell_checker() { return nullptr; }
-  /// Cells that check_all() asks for the posts of, whatever the sample is.
+  /// Cells, in the sample or not, whose posts check_all() needs.
   [[nodiscard]] virtual std::vector<std::uint64_t> more_cells() const { return {}; }
-  /// Whatever takes more than one cell at a time.
+  /// Checks that take more than one cell at a time.
   virtual void check_all(ThreadTeam& /*team*/) {}
-  /// After all that.
+  /// The findings, when all checks have been made.
   [[nodiscard]] virtual std::vector<Finding> findings() const = 0;
 
  private:

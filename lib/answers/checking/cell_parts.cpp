@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t kFarOut = std::int64_t{1} << 30;
 
-/// Where a number of cells begins, counted in a ring from 0.
+/// An index brought into [0, count) on a ring.
 std::int64_t in_ring(std::int64_t index, std::int64_t count) {
   const std::int64_t rest = index % count;
   return rest < 0 ? rest + count : rest;

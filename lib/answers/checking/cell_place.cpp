@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-/// Exactly, unless that is long: for people.
+/// A number as text for people: exact unless that is long.
 std::string short_text(const Rational& value) {
   constexpr std::size_t kLongest = 12;
   std::string exact = to_text(value);

@@ -11,7 +11,7 @@ namespace coordreq {
 /// A cell by its centre: "x1 = 0.1, x2 = 0".
 [[nodiscard]] std::string place_of(const UniformGrid& grid, std::int64_t cell);
 
-/// What an entry of a table is about: the states and inputs that it depends on, "x1 = 0.1, u = 1".
+/// The states and inputs that an entry of a table belongs to: "x1 = 0.1, u = 1".
 [[nodiscard]] std::string entry_text(const UniformGrid& grid, const InputSpace& inputs,
                                      const PostTable& table, std::int64_t entry);
 

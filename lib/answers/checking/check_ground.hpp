@@ -12,25 +12,25 @@
 
 namespace coordreq {
 
-/// What a difference between a claim and its check means.
+/// How the posts of a check relate to those of the analysis: what a difference between claim and check means.
 enum class PostsAre : std::uint8_t {
   those_of_the_result,  ///< every claim must be met exactly
   perhaps_others,  ///< also sound, but perhaps not those of the analysis that wrote the file: a claim of more
                    ///< safety is wrong, one of less is left open
 };
 
-/// What all checks stand on. Sizes are compared before there are posts.
+/// The data that all checks use. Posts are not there yet while sizes are compared.
 struct CheckGround {
   const ProblemSpec* spec = nullptr;
   const UniformGrid* grid = nullptr;
   const InputSpace* inputs = nullptr;
   const Claims* claims = nullptr;
   const Posts* posts = nullptr;
-  const Tubes* tubes = nullptr;  ///< null: only the samples count
+  const Tubes* tubes = nullptr;  ///< null: cells are safe at the samples alone
   PostsAre posts_are = PostsAre::those_of_the_result;
-  bool is_full = false;  ///< what takes many looks at all cells is asked for too
+  bool is_full = false;  ///< checks that go over all cells many times are asked for, too
 
-  /// A claim of less safety is left open.
+  /// Posts may be others than those of the analysis: a claim of less safety is left open.
   [[nodiscard]] bool sound_only() const { return posts_are == PostsAre::perhaps_others; }
 };
 

@@ -33,7 +33,7 @@ void CheckedCell::go_to(std::int64_t cell) {
   if (is_invariant()) find_admitted();
 }
 
-/// Asks the delays of the first partition, which are negative outside K and nowhere else: so their minima are
+/// Finds C(x) by the delays of the first partition, which are negative exactly outside K: so their minima are
 /// at hand for the check of delays.
 void CheckedCell::find_admitted() {
   const bool given = ground_.spec->controller.synthesis == Synthesis::given;

@@ -12,8 +12,8 @@
 
 namespace coordreq {
 
-/// One cell after the other, with what every check asks of it: its posts and C(x), straight from the
-/// definitions, one joint input at a time. A pair whose tube is not safe has no post. One object a thread.
+/// One cell after the other, with the posts and C(x) that all checks use, straight from the definitions, one
+/// joint input at a time. A pair whose tube is not safe has no post. One object a thread.
 class CheckedCell {
  public:
   /// @pre unchecked: `ground` outlives this object.
@@ -27,15 +27,16 @@ class CheckedCell {
   [[nodiscard]] std::string place() const;
   /// As claimed.
   [[nodiscard]] bool is_safe() const { return safe_[at()] != 0; }
-  /// As claimed; what is not safe is not invariant.
+  /// As claimed; a cell that is not safe is not invariant.
   [[nodiscard]] bool is_invariant() const { return is_safe() && invariant_[at()] != 0; }
 
-  /// As claimed: of a goal that ends the task. The cell counts as T, and nothing is asked of what follows.
+  /// As claimed: the cell is in a goal that ends the task. It counts as T, and nothing is asked of the cells
+  /// that follow.
   [[nodiscard]] bool is_over() const { return arrival_ != nullptr && (*arrival_)[at()] == 0; }
 
-  /// C(x): [joint input] 1 or 0; none outside K.
+  /// C(x): [joint input] 1 or 0; all 0 outside K.
   [[nodiscard]] const std::vector<std::uint8_t>& admitted() const { return admitted_; }
-  /// Every allowed joint input keeps the cell in K. @pre is_invariant()
+  /// Whether every allowed joint input keeps the cell in K. @pre is_invariant()
   [[nodiscard]] bool all_stay() const {
     REQUIRES(is_invariant());
     return all_stay_;
@@ -44,15 +45,15 @@ class CheckedCell {
   /// Minima asked for and cells looked at for them, so far: a measure of the work.
   [[nodiscard]] std::int64_t looked_at() const { return posts_.looked_at(); }
 
-  // @pre unchecked: for what follows, is_safe()
+  // @pre unchecked: for the functions below, is_safe()
   [[nodiscard]] bool is_allowed(std::int64_t u) const { return allowed_(u); }
-  /// `allow` does not permit it; a file that does not list it forbids nothing. Blocked, where classes act by
-  /// themselves.
+  /// Whether `allow` does not permit u, which then counts as blocked where classes act by themselves. A joint
+  /// input that a controller file does not list is not forbidden.
   [[nodiscard]] bool is_forbidden(std::int64_t u) const { return !allowed_.permits(u); }
-  /// The way to the next sample is safe, if that counts.
+  /// Whether the tube under u is safe; true if only samples count.
   [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
-  /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.
-  /// @param values over all cells; minima are remembered by where they lie
+  /// min over y in f(x, u) of values[y]; `forever` if the post has left safely, `blocked` if there is none.
+  /// @param values over all cells; minima are remembered by the address of the values
   /// @pre unchecked: for the same values the same `blocked` and `forever`.
   template <class Value>
   [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<Value>& values, std::int32_t blocked,
@@ -74,16 +75,16 @@ class CheckedCell {
   const std::vector<std::int32_t>& delay_;    ///< of the first partition
   const std::vector<std::int32_t>* arrival_;  ///< where a goal ends the task, else null
   PostMinima posts_;
-  std::optional<CellTubes> tubes_;  ///< if the ways between the samples count
+  std::optional<CellTubes> tubes_;  ///< if tubes count
   AllowedPairs allowed_;
   std::int64_t cell_ = 0;
   bool all_stay_ = false;
   std::vector<std::uint8_t> admitted_;
-  std::vector<std::int32_t> memory_;  ///< of posts_
-  const void* remembered_ = nullptr;  ///< the values that it is about
+  std::vector<std::int32_t> memory_;  ///< the minima that posts_ remembers
+  const void* remembered_ = nullptr;  ///< the values that memory_ is for
 };
 
-/// Steps of a cell, coded as in `/delay`, that are not those of the definition.
+/// Adds a wrong claim about steps, coded as in `/delay`, to the tally.
 void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected);
 
 }  // namespace coordreq

@@ -15,14 +15,14 @@ class ClaimedProgress {
 
   /// -2 outside S, -1 in S but not in K, kForever where the goal cannot be forced.
   [[nodiscard]] std::int32_t arrival(std::size_t cell) const { return arrival_[cell]; }
-  /// The goal can be forced from the cell, which is none of it.
+  /// Whether the goal can be forced from the cell, which is not in the goal.
   [[nodiscard]] bool is_on_the_way(std::size_t cell) const {
     return arrival_[cell] > 0 && arrival_[cell] != kForever;
   }
-  /// The greatest arrival in f(x,u), kForever if T may be there through a `safe` side, or a cell outside K,
+  /// The greatest arrival in f(x,u); kForever if a cell outside K may be in it, or T by way of a `safe` side,
   /// or if there is no post.
   [[nodiscard]] std::int32_t worst(CheckedCell& cell, std::int64_t u) const;
-  /// Every cell of f(x,u) is nearer to the goal.
+  /// Whether every cell of f(x,u) is nearer to the goal.
   [[nodiscard]] bool comes_nearer(CheckedCell& cell, std::int64_t u) const {
     return worst(cell, u) < arrival_[cell.at()];
   }

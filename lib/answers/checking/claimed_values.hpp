@@ -14,10 +14,10 @@ namespace coordreq {
 /// A number of steps in words.
 [[nodiscard]] std::string step_words(std::int32_t value);
 [[nodiscard]] std::int32_t one_more(std::int32_t steps);
-/// How many are not 0.
+/// Number of entries that are not 0.
 [[nodiscard]] std::uint64_t count_members(const std::vector<std::uint8_t>& set);
-/// What a requirement judges cells by: a field of the name that its kind gives. Without a partition the delay
-/// is that of all agents together.
+/// The values by which a requirement judges cells: the field that its kind names. Without a partition the
+/// delay is that of all agents together.
 class ClaimedValues {
  public:
   /// @pre unchecked: `claims` outlives this object.
@@ -33,14 +33,14 @@ class ClaimedValues {
  private:
   const std::vector<std::uint8_t>& safe_;
   const std::vector<std::uint8_t>& invariant_;
-  const std::vector<std::int32_t>* values_ = nullptr;  ///< null: of all agents together, or a risk
+  const std::vector<std::int32_t>* values_ = nullptr;  ///< null: the delay of all agents together, or a risk
   const std::vector<float>* risks_ = nullptr;          ///< in the first mode
 };
 
-/// How bits of a cell differ from those expected.
+/// How the bits of a cell differ from those expected.
 struct BitDifference {
-  std::int64_t extra = 0;  ///< set, but they must not be; bits beyond the last expected one are such
-  bool fewer = false;      ///< some are missing
+  std::int64_t extra = 0;  ///< bits that are set and must not be, as are all beyond the last expected one
+  bool fewer = false;      ///< bits that must be set are missing
 };
 /// @param bytes [cell, ceil(m / 8)] for the m expected bits, each 0 or 1
 [[nodiscard]] BitDifference compare_bits(const std::vector<std::uint8_t>& bytes, std::size_t cell,

@@ -12,41 +12,41 @@
 
 namespace coordreq {
 
-/// Infinite delays, triggers and collision times, whatever type they are stored as.
+/// Infinite delays, triggers and collision times, for all types in which they are stored.
 inline constexpr std::int32_t kForever = INT32_MAX;
-/// What a delay says of cells that have none.
+/// The delay of a cell outside S.
 inline constexpr std::int32_t kOutsideSafe = -2;
 inline constexpr std::int32_t kOutsideInvariant = -1;
-/// And an approach delay of cells in K from where the goal cannot be forced.
+/// The approach delay of a cell in K from which the goal cannot be forced.
 inline constexpr std::int32_t kNoWayToGoal = -4;
 
-/// What a results file says in one field: what its kind has, all else is empty. Of fields over cells
-/// [entry of the leading axis][cell, row-major], with one entry where there is no such axis.
+/// The values of one field of a results file; only the members of its kind are filled. Values over cells are
+/// [entry of the leading axis][cell, row-major], with one entry if there is no leading axis.
 struct FieldClaims {
-  /// Of steps and choices. kForever: the largest number of the type, where it has that meaning.
+  /// Of steps and choices. kForever: the largest number of the type, where it means unbounded.
   std::vector<std::vector<std::int32_t>> values;
   std::vector<std::vector<std::uint8_t>> members;  ///< of sets: 0 or 1
   std::vector<std::vector<float>> reals;           ///< of shares and probabilities
   std::vector<std::uint8_t> bits;                  ///< of actions: bytes [cells, ceil(m / 8)]
-  std::vector<std::int64_t> integers;              ///< of a small field
-  std::vector<double> numbers;                     ///< likewise
-  std::vector<std::uint64_t> cells;                ///< the attribute of this name; may be missing
+  std::vector<std::int64_t> integers;              ///< of a small field of integers
+  std::vector<double> numbers;                     ///< of a small field of floating point numbers
+  std::vector<std::uint64_t> cells;                ///< the attribute `cells`; empty if there is none
   // Other attributes that the analysis has found:
   std::map<std::string, std::int64_t> whole_attributes;
   std::map<std::string, double> real_attributes;
 };
 
-/// What a results file says, all of it to be doubted: its fields by path, the abstraction apart. Checks read
-/// small fields of it as they would of a file.
+/// The claims of a results file, all of them to be checked: its fields by path, and the abstraction. Checks
+/// read small fields of it as they would read them from a file.
 class Claims : public FieldSource {
  public:
-  std::map<std::string, FieldClaims> fields;  ///< all that the file has, scales too
-  std::optional<PackedPairs> listed;          ///< what `controller.file` lists, which is not doubted
-  std::vector<PostTable> abstraction;         ///< one a state, or none
-  bool same_version = true;                   ///< written by this version of the program
-  std::string file;                           ///< its path, for errors
+  std::map<std::string, FieldClaims> fields;  ///< all fields of the file, scales included
+  std::optional<PackedPairs> listed;   ///< the pairs that `controller.file` lists, which are not checked
+  std::vector<PostTable> abstraction;  ///< one a state, or empty
+  bool same_version = true;            ///< written by this version of the program
+  std::string file;                    ///< its path, for errors
 
-  // @pre unchecked: for what follows, the file has the field, of that kind.
+  // @pre unchecked: for the functions below, the file has a field of that path and kind.
   [[nodiscard]] const FieldClaims& at(const std::string& path) const { return fields.at(path); }
   [[nodiscard]] const std::vector<std::int32_t>& values(const std::string& path,
                                                         std::size_t entry = 0) const {
@@ -56,7 +56,7 @@ class Claims : public FieldSource {
                                                          std::size_t entry = 0) const {
     return at(path).members.at(entry);
   }
-  /// Null: they are not stored.
+  /// Null: the bits are not stored.
   [[nodiscard]] const std::vector<std::uint8_t>* bits(const std::string& path) const {
     const auto found = fields.find(path);
     return found == fields.end() ? nullptr : &found->second.bits;

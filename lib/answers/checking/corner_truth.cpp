@@ -6,7 +6,7 @@
 namespace coordreq {
 namespace {
 
-/// More variables have too many corners.
+/// With more variables a box has too many corners.
 constexpr std::size_t kMostCornerVariables = 6;
 
 bool keeps_its_sign(const RationalInterval& slope) {
@@ -92,7 +92,7 @@ bool CornerTruth::holds_with_corners(const std::vector<RationalInterval>& box) {
   return cornered_.condition(slots) == Truth::yes;
 }
 
-/// Looks at the corners and the centre.
+/// Whether the condition fails at a corner or at the centre of the box.
 bool CornerTruth::fails_at_a_point(const std::vector<RationalInterval>& box) {
   std::vector<RationalInterval> point = box;
   const std::size_t n = std::min(variables_.size(), kMostCornerVariables);

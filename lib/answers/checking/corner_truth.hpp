@@ -8,7 +8,8 @@
 namespace coordreq {
 
 /// Proves or refutes a condition over a box where natural evaluation is too coarse: a difference that is
-/// monotone in all variables has its extremes at corners of the box, exactly; what is not monotone is halved.
+/// monotone in all variables has its extremes at corners of the box, exactly; in variables in which it is not
+/// monotone the box is halved.
 class CornerTruth {
  public:
   static constexpr int kMostBoxes = 512;

@@ -8,13 +8,14 @@
 
 namespace coordreq {
 
-/// What classes that do not coordinate can choose together, by definition.
+/// The joint inputs that classes which do not coordinate can choose, by definition.
 class IndependentChoices {
  public:
   /// @param partition its classes, by agents
   IndependentChoices(const CheckGround& ground, const std::vector<std::vector<std::int32_t>>& partition);
 
-  /// The joint inputs of which each class's part is that of some of `joint`, [joint input] 0 or 1.
+  /// The joint inputs in which the action of each class occurs in some joint input of `joint`, [joint input]
+  /// 0 or 1.
   [[nodiscard]] std::vector<std::int64_t> of(const std::vector<std::uint8_t>& joint) const;
 
  private:

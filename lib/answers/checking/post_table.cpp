@@ -29,7 +29,7 @@ std::size_t PostTable::entry_of(const UniformGrid& grid, std::int64_t cell) cons
   return *found;
 }
 
-/// Inputs run fastest, so that entries of a cell lie together.
+/// The index of inputs is the fastest, so that the entries of a cell lie together.
 std::vector<std::int64_t> entry_places(const PostTable& table, const UniformGrid& grid,
                                        const InputSpace& inputs, const std::vector<std::int64_t>& cells) {
   std::int64_t choices = 1;

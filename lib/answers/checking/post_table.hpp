@@ -11,39 +11,40 @@
 
 namespace coordreq {
 
-/// Where one state can be a period later: raw ranges of grid indices, before `outside` is applied, remembered
-/// for each choice of what they depend on, or for those choices alone that some cells make.
+/// Where one state can be a period later: raw ranges of grid indices, before `outside` is applied, for each
+/// choice of the states and inputs that they depend on, or for the choices of some cells alone.
 struct PostTable {
-  std::vector<std::size_t> states;         ///< ascending
-  std::vector<std::size_t> inputs;         ///< ascending
-  std::vector<IndexRange> entries;         ///< row-major over `states`, then `inputs`
-  std::vector<std::int64_t> places;        ///< of the entries if some are left out, ascending; else empty
+  std::vector<std::size_t> states;  ///< ascending
+  std::vector<std::size_t> inputs;  ///< ascending
+  std::vector<IndexRange> entries;  ///< row-major over `states`, then `inputs`
+  std::vector<std::int64_t>
+      places;  ///< [entry] its place in the whole table, ascending; empty if no entry is left out
   std::vector<std::int64_t> state_stride;  ///< one for each state of the spec; 0 if it has no influence
   std::vector<std::int64_t> input_stride;
   bool exact = true;  ///< the ranges are those of the contract, not only enclosures of them
 
-  /// Place of an entry among those of a table that leaves none out.
+  /// Place of an entry in a table that leaves none out.
   [[nodiscard]] std::int64_t place_of(std::size_t entry) const {
     return places.empty() ? static_cast<std::int64_t>(entry) : places[entry];
   }
   /// The entry with a place; nothing if it is left out.
   [[nodiscard]] std::optional<std::size_t> find(std::int64_t place) const;
-  /// @pre it is not left out
+  /// The entry at a place. @pre the entry is not left out
   [[nodiscard]] const IndexRange& at(std::int64_t place) const {
     const std::optional<std::size_t> found = find(place);
     REQUIRES(found.has_value());
     return entries[*found];
   }
-  /// The first entry of a cell; those of its other inputs follow. @pre they are not left out
+  /// The first entry of a cell; its entries for other inputs follow. @pre they are not left out
   [[nodiscard]] std::size_t entry_of(const UniformGrid& grid, std::int64_t cell) const;
 };
 
-/// The places of the entries that some cells have, with all inputs, ascending.
+/// The places of the entries of some cells, with all inputs, ascending.
 [[nodiscard]] std::vector<std::int64_t> entry_places(const PostTable& table, const UniformGrid& grid,
                                                      const InputSpace& inputs,
                                                      const std::vector<std::int64_t>& cells);
 
-/// What a whole table says of some cells; all of it if `cells` is empty.
+/// The part of a whole table for some cells; all of it if `cells` is empty.
 [[nodiscard]] PostTable part_of(const PostTable& whole, const UniformGrid& grid, const InputSpace& inputs,
                                 const std::vector<std::int64_t>& cells);
 

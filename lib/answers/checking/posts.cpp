@@ -17,7 +17,7 @@ ResolvedRange once_round(IndexRange raw, std::int64_t count) {
   return {.inside = {static_cast<std::int32_t>(first), static_cast<std::int32_t>(first + length - 1)}};
 }
 
-/// What leaves there is the absorbing cell T.
+/// Whether states that leave there are in the absorbing cell T.
 bool arrives(Outside rule) {
   return rule == Outside::safe || rule == Outside::goal;
 }
@@ -88,7 +88,7 @@ void PostMinima::go_to(std::int64_t cell) {
     if (i < split_) outer_cells = std::min(outer_cells * width, kMostMinima + 1);
   }
   parts_ = outer_cells * inner_boxes_;
-  // Forgetting them costs more than they save where few inputs are spread over many.
+  // With few joint inputs and many minima, clearing the memory costs more than it saves.
   const std::int64_t most = std::min(kMostMinima, 4 * posts_->joint_inputs);
   if (boxes_ > most) boxes_ = 0;
   if (parts_ > most || split_ == ranks_.size()) parts_ = 0;

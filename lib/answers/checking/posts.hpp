@@ -19,16 +19,18 @@ struct Posts {
   const UniformGrid* grid = nullptr;
   std::int64_t joint_inputs = 0;
   std::vector<const PostTable*> tables;
-  std::vector<std::vector<ResolvedRange>> resolved;   ///< [state][entry]
-  std::vector<std::vector<std::int32_t>> input_part;  ///< [state][u]: entry, counted from the cell's first
-  std::vector<std::int64_t> input_choices;            ///< [state]: entries of one cell
+  std::vector<std::vector<ResolvedRange>> resolved;  ///< [state][entry]
+  std::vector<std::vector<std::int32_t>>
+      input_part;                           ///< [state][u] entry, counted from the first entry of the cell
+  std::vector<std::int64_t> input_choices;  ///< [state]: entries of one cell
 };
 /// @pre unchecked: `grid` and `tables` outlive the result.
 [[nodiscard]] Posts make_posts(const UniformGrid& grid, const InputSpace& inputs,
                                const std::vector<PostTable>& tables);
 
-/// The posts of one cell at a time. Many of them are the same box, or share the ranges of the last
-/// dimensions, so that minima over both are remembered, in memory that the caller keeps. One object a thread.
+/// The posts of one cell at a time. Many posts are the same box, or share the ranges of the last dimensions,
+/// so that minima over boxes, and over ranges of the last dimensions, are remembered, in memory that the
+/// caller keeps. One object a thread.
 class PostMinima {
  public:
   /// No more minima than these are remembered for one cell.
@@ -38,11 +40,11 @@ class PostMinima {
   explicit PostMinima(const Posts& posts);
 
   void go_to(std::int64_t cell);
-  /// How many minima are remembered.
+  /// Number of minima that are remembered.
   [[nodiscard]] std::size_t memory_size() const { return static_cast<std::size_t>(boxes_ + parts_); }
   /// Minima asked for and cells looked at for them, so far: a measure of the work.
   [[nodiscard]] std::int64_t looked_at() const { return looked_at_; }
-  /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.
+  /// min over y in f(x, u) of values[y]; `forever` if the post has left safely, `blocked` if there is none.
   /// @param values over all cells
   /// @param memory memory_size() minima of this cell and these values, kNotKnown before the first call
   template <class Value>
@@ -76,7 +78,7 @@ class PostMinima {
     return gone ? forever : least_from(0, 0, 0, box % inner_boxes_, values, forever, memory);
   }
 
-  /// Over the ranges of dimensions i, i + 1, ... behind one choice of the cells of those before.
+  /// Minimum over the ranges of dimensions i, i + 1, ... at one choice of indices in the dimensions before.
   /// @param window number of that choice, within the ranges of all posts
   template <class Value>
   [[nodiscard]] std::int32_t least_from(std::size_t i, std::int64_t cell, std::int64_t window,
@@ -110,10 +112,10 @@ class PostMinima {
   const Posts* posts_;
   const UniformGrid* grid_;
   const std::vector<std::vector<std::int32_t>>* input_part_;
-  std::size_t split_;                                  ///< dimensions from here on are remembered together
-  std::vector<std::vector<ResolvedRange>> different_;  ///< [state]: ranges of this cell
-  std::vector<std::vector<std::int64_t>> ranks_;       ///< [state][part of the inputs]: which of them
-  std::vector<IndexRange> window_;                     ///< [state]: what holds all of them
+  std::size_t split_;  ///< minima over the dimensions from here on are remembered
+  std::vector<std::vector<ResolvedRange>> different_;  ///< [state] the different ranges of this cell
+  std::vector<std::vector<std::int64_t>> ranks_;  ///< [state][choice of its inputs] index into different_
+  std::vector<IndexRange> window_;                ///< [state] a range around all of different_
   std::vector<const ResolvedRange*> box_;
   std::int64_t inner_boxes_ = 1;
   std::int64_t boxes_ = 0;  ///< remembered boxes; 0: too many

@@ -14,8 +14,8 @@ template <class N>
 struct Sloped {
   N value;
   std::vector<N> gradient;  ///< by direction; empty: all 0
-  bool smooth = true;       ///< false: there may be a jump in the box, which no derivative tells
-  std::vector<N> corners;   ///< values at the corners of the box, if they are wanted
+  bool smooth = true;       ///< false: there may be a jump in the box, which derivatives do not show
+  std::vector<N> corners;   ///< values at the corners of the box; empty: not asked for
   bool total = true;        ///< false: perhaps not defined everywhere in the box
 };
 
@@ -26,7 +26,7 @@ template <class N>
   return from_rational(static_cast<const N*>(nullptr), Rational(n));
 }
 
-/// f(a) given f over all of the box and f' there.
+/// f(a), given f and f' over the box.
 template <class N>
 [[nodiscard]] Sloped<N> chain(Operator op, const Sloped<N>& a, const N& derivative) {
   Sloped<N> result{.value = apply(op, a.value), .smooth = a.smooth};
@@ -121,7 +121,7 @@ template <class N>
   return result;
 }
 
-/// What weight `a` has in min(a, b) or max(a, b): 1, 0, or all between.
+/// The weight of `a` in min(a, b) or max(a, b): 1, 0, or [0, 1].
 template <class N>
 [[nodiscard]] N weight(Truth a_counts) {
   if (a_counts == Truth::undecided) return hull(number<N>(0), number<N>(1));

@@ -10,15 +10,15 @@
 
 namespace coordreq {
 
-/// What became of one kind of check.
+/// The result of one kind of check.
 struct Finding {
   std::string check;                  ///< "S", "K", "delay PARTITION", ...
-  std::int64_t checked = 0;           ///< how many cells, entries or attributes were looked at
+  std::int64_t checked = 0;           ///< how many cells, entries or attributes were checked
   std::int64_t wrong = 0;             ///< how many of them are not as they should be
   std::int64_t unproven = 0;          ///< how many could be neither confirmed nor refuted
   std::vector<std::string> examples;  ///< the first few wrong ones: where, what was found, what was expected
   std::vector<std::string> doubts;    ///< the first few that are not confirmed: where, and why
-  std::string note;                   ///< what the check rests on, or why something is unproven; may be empty
+  std::string note;  ///< the assumption of the check, or why something is unproven; may be empty
 };
 
 /// Counts what several threads find, and keeps the first few wrong ones by their number.

@@ -26,7 +26,8 @@ std::vector<std::size_t> class_of_agents(const PartitionSpec& partition, std::si
   return result;
 }
 
-/// Takes links inside classes, cheaper ones first, wherever they join what was not joined before.
+/// The cost of the links that Kruskal's algorithm takes: inside classes, cheaper ones first, where they join
+/// components.
 Rational cost_of(const std::vector<std::size_t>& class_of, const std::vector<LinkCostSpec>& listed) {
   std::vector<std::tuple<Rational, std::size_t, std::size_t>> links;
   for (std::size_t a = 0; a < class_of.size(); ++a) {
@@ -52,7 +53,7 @@ Rational cost_of(const std::vector<std::size_t>& class_of, const std::vector<Lin
   return total;
 }
 
-/// What is compared of a partition.
+/// A partition with the properties by which partitions are compared.
 struct Candidate {
   Rational cost;
   std::size_t largest_class = 0;
@@ -112,7 +113,7 @@ class CoalitionCheck : public AnswerCheck {
   }
 
  private:
-  /// Numbers instead of costs, since rationals are slow to compare: for each cell again.
+  /// Finds ranks to compare at each cell instead of costs, since rationals are slow to compare.
   void rank() {
     std::vector<std::size_t> order(candidates_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -128,7 +129,7 @@ class CoalitionCheck : public AnswerCheck {
     }
   }
 
-  /// What the map must say of a cell.
+  /// The value that the map must have at a cell.
   [[nodiscard]] std::int32_t cheapest_at(std::size_t x) const {
     if (safe_[x] == 0) return kOutsideSafe;
     if (invariant_[x] == 0) return kOutsideInvariant;
@@ -185,13 +186,13 @@ class CoalitionCheck : public AnswerCheck {
     }
   }
 
-  /// [pair]; nothing if there are none.
+  /// [pair] The critical cells; empty if there are no pairs.
   [[nodiscard]] const FieldClaims& critical_pairs() const {
     static const FieldClaims nothing;
     return critical_ == nullptr ? nothing : *critical_;
   }
 
-  /// As many as the attribute `cells` has for so many values.
+  /// The length of the attribute `cells` of so many values.
   static std::int64_t counted(std::size_t values) {
     constexpr std::size_t kMostCounted = 4096;
     return values <= kMostCounted ? static_cast<std::int64_t>(values) : 0;
@@ -219,13 +220,13 @@ class CoalitionCheck : public AnswerCheck {
   const std::vector<std::uint8_t>& invariant_;
   const std::vector<std::vector<std::int32_t>>& delay_;  ///< [partition][cell]
   const FieldClaims& choice_;
-  const std::vector<std::int32_t>& chosen_;  ///< [cell] index of a partition, or what the words say
+  const std::vector<std::int32_t>& chosen_;  ///< [cell] index of a partition, or a value that means a word
   const FieldClaims* critical_ = nullptr;    ///< null: there are no pairs
   std::vector<std::string> pair_names_;
   std::int64_t horizon_;
   std::vector<Candidate> candidates_;   ///< by partition
   std::vector<std::size_t> rank_;       ///< [partition] place in the order of preference
-  std::vector<std::size_t> cost_rank_;  ///< [partition] the same for equal costs
+  std::vector<std::size_t> cost_rank_;  ///< [partition] its rank by cost alone
   Tally coalition_{"coalition"};
   Tally pairs_{"critical pairs"};
 };

@@ -6,10 +6,10 @@
 
 namespace coordreq {
 
-/// Checks what a file says about coalitions against the delays that it claims, which check_layers() looks
-/// after: for each cell all partitions are gone through, those whose delay reaches the horizon are compared
-/// by the cost of their cheapest network (Kruskal's algorithm), then by their largest class and name, and
-/// each pair of agents is looked for in all that cost least. Also the sizes that the file counts.
+/// Checks the coalitions in a file against its delays, which check_layers() checks: for each cell the
+/// partitions whose delay reaches the horizon are compared by the cost of their cheapest network (Kruskal's
+/// algorithm), then by their largest class and name, and each pair of agents is looked for in all partitions
+/// of least cost. Also checks the sizes in the file.
 /// @returns null: the spec has no horizon
 [[nodiscard]] std::unique_ptr<AnswerCheck> check_coalition(const CheckGround& ground);
 

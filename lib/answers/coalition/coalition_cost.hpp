@@ -19,18 +19,18 @@ using AgentPair = std::pair<std::int32_t, std::int32_t>;
 /// True if the two coordinate within a step.
 [[nodiscard]] bool are_together(const PartitionSpec& partition, const AgentPair& pair);
 
-/// min over the graphs whose connected components are the classes of the sum of link costs: the cost of the
-/// cheapest communication network for the partition, a minimum spanning tree of each class (Prim's
-/// algorithm). Links not listed cost 1, so without a list the cost is agents minus classes. Exact.
+/// The cost of the cheapest communication network for the partition: the least sum of link costs over the
+/// graphs whose connected components are the classes, which is that of a minimum spanning tree of each class
+/// (Prim's algorithm). Links not listed cost 1, so without a list the cost is agents minus classes. Exact.
 [[nodiscard]] Rational network_cost(const PartitionSpec& partition, const std::vector<LinkCostSpec>& links);
 
-/// A partition that a cell can be given, and what it costs.
+/// A partition, and its cost.
 struct CoalitionChoice {
   std::size_t partition = 0;  ///< index into the partitions of the spec
   Rational cost;
 };
 
-/// The partitions, the most wanted first: by cost, then by the size of the largest class, then by name
+/// The partitions, the most preferred first: by cost, then by the size of the largest class, then by name
 /// (byte by byte). No two rank equal, as names differ.
 [[nodiscard]] std::vector<CoalitionChoice> order_of_preference(const CoordinationSpec& coordination);
 

@@ -37,7 +37,7 @@ void find_enough(const DelayLayers& layers, std::int64_t horizon, std::int64_t r
   });
 }
 
-/// Works out rows. One object a thread.
+/// Finds the choices of the cells of rows. One object a thread.
 template <class Level>
 class RowChooser {
  public:
@@ -61,8 +61,8 @@ class RowChooser {
   }
 
  private:
-  /// Gives the open cells of the row the choices from number i on that cost as much as that one.
-  /// @returns the number of the first that costs more
+  /// Gives open cells of the row the choices from number i on that cost as much as choice i.
+  /// @returns the number of the first choice that costs more
   std::size_t choose_among_equals(std::int64_t row, std::size_t i) {
     const Rational& cost = map_.choices[i].cost;
     std::fill(tied_.begin(), tied_.end(), 0);
@@ -71,7 +71,7 @@ class RowChooser {
       find_enough(*layers_[map_.choices[i].partition], map_.horizon, row, enough_);
       for (std::size_t w = 0; w < words_; ++w) enough_[w] &= open_[w];
       for (const std::size_t pair : apart_[i]) unite(enough_, sometimes_apart_[pair]);
-      // The first of equals has been given out already.
+      // Cells that have got an earlier choice of the same cost keep it.
       for (std::size_t w = 0; w < words_; ++w) enough_[w] &= ~tied_[w];
       assign(row, enough_, static_cast<Level>(i + 1));
       unite(enough_, tied_);
@@ -103,10 +103,11 @@ class RowChooser {
   const CellSet& invariant_;
   const std::vector<const DelayLayers*>& layers_;
   std::size_t words_;
-  std::vector<Word> open_;                          ///< cells of K without a partition so far
-  std::vector<Word> enough_;                        ///< open cells for which the partition at hand is enough
-  std::vector<Word> tied_;                          ///< open cells for which one of the same cost is
-  std::vector<std::vector<Word>> sometimes_apart_;  ///< [pair] in one of these
+  std::vector<Word> open_;    ///< cells of K without a partition so far
+  std::vector<Word> enough_;  ///< open cells for which the partition at hand is enough
+  std::vector<Word> tied_;    ///< open cells for which a choice of the cost at hand is enough
+  std::vector<std::vector<Word>>
+      sometimes_apart_;  ///< [pair] cells at which the two are apart in one of these choices
 };
 
 template <class Level>
@@ -123,7 +124,7 @@ LevelMap choose_all(CoalitionMap& map, const std::vector<std::vector<std::size_t
   return LevelMap(std::move(chosen));
 }
 
-/// [choice] the numbers of the pairs that are not together in it.
+/// [choice] The numbers of the pairs that are apart in its partition.
 std::vector<std::vector<std::size_t>> pairs_apart(const CoalitionMap& map,
                                                   const std::vector<PartitionSpec>& partitions) {
   std::vector<std::vector<std::size_t>> apart;

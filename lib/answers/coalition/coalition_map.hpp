@@ -11,20 +11,21 @@
 
 namespace coordreq {
 
-/// Who must talk to whom: for each cell x of K the most wanted partition P with delay_P(x) >= horizon, that
-/// is the cheapest network with which the system stays in K for that many steps though its classes do not
-/// hear from one another.
+/// Who must talk to whom: for each cell x of K the most preferred partition P with delay_P(x) >= horizon,
+/// that is, the cheapest network with which the system stays in K for `horizon` steps though its classes do
+/// not hear from one another.
 struct CoalitionMap {
   std::int64_t horizon = 0;              ///< steps
-  std::vector<CoalitionChoice> choices;  ///< the partitions, the most wanted first
+  std::vector<CoalitionChoice> choices;  ///< the partitions, the most preferred first
   std::vector<AgentPair> pairs;          ///< all pairs of agents
-  /// [cells]: 0 outside K, 1 + i where choices[i] is the first whose delay is enough, LevelMap::kTop where
-  /// none of them is. With all agents in one class among them there is no such cell.
+  /// [cells]: 0 outside K, 1 + i where choices[i] is the first partition whose delay is enough,
+  /// LevelMap::kTop where no partition's is. If one of the partitions has all agents in one class there is no
+  /// such cell.
   LevelMap chosen;
-  /// [pair]: the cells at which the two are together in every partition that is enough and costs as little as
-  /// the chosen one. Empty outside K and where none is enough.
+  /// [pair]: the cells at which the two agents are together in every partition whose delay is enough and that
+  /// costs as little as the chosen one. Empty outside K and where none is enough.
   std::vector<CellSet> critical;
-  std::vector<std::int64_t> cells;           ///< [choice] that are given it
+  std::vector<std::int64_t> cells;           ///< [choice] number of cells with that choice
   std::int64_t without = 0;                  ///< cells of K for which no partition is enough
   std::vector<std::int64_t> critical_cells;  ///< [pair] |critical|
 };

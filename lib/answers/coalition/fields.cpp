@@ -16,7 +16,7 @@
 namespace coordreq {
 namespace {
 
-/// [level of CoalitionMap::chosen] what stands in the file for it, kNoPartitionSuffices left out.
+/// [level of CoalitionMap::chosen] Its value in the file, kNoPartitionSuffices left out.
 template <class Integer>
 std::vector<Integer> codes(const CoalitionMap& map) {
   std::vector<Integer> result = {static_cast<Integer>(DelayLayers::kOutsideInvariant)};
@@ -45,7 +45,7 @@ ResultArray coalition_array(const CoalitionMap& map, const Answers& answers) {
                                            : fill_coalition<std::int32_t>(map, answers)};
 }
 
-/// The partitions that occur, the most wanted first, with what they cost.
+/// The partitions that occur, the most preferred first, with their costs.
 std::function<void(const std::set<std::int32_t>&, Json&)> choices_of(const CoordinationSpec& coordination) {
   return [own = std::make_shared<const CoordinationSpec>(coordination)](const std::set<std::int32_t>& found,
                                                                         Json& head) {

@@ -20,7 +20,7 @@ void serialise(Archive& archive, const RowEngine& engine, ConventionFreedom& con
   const std::int64_t cells = engine.grid().cells(), length = engine.row_length();
   const RowShare::Range own = own_rows(engine.share(), engine.rows());
   for (ConventionFreedom::Agent& agent : convention.agents) {
-    auto& [freedom, mean, full, histogram] = agent;  // all that there is, so that nothing is forgotten
+    auto& [freedom, mean, full, histogram] = agent;  // every member, so that none is forgotten
     if (archive.is_loading()) freedom = ZeroedArray<float>(static_cast<std::size_t>(cells));
     archive.grid_rows(number_rows(freedom.data(), length, engine.rows(), length), own, {&own, 1});
     archive.number(mean);
@@ -35,7 +35,7 @@ void serialise(Archive& archive, const RowEngine& engine, ConventionFreedom& con
   }
 }
 
-/// Of a part of the cells and of others.
+/// Joins the conventions of two parts of the cells.
 /// @param rows that are owned, of `length` lanes
 void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_cells, RowShare::Range rows,
          std::int64_t length, ConventionFreedom& result) {
@@ -61,7 +61,7 @@ ConventionFreedom find_parts(const Ground& ground, const ConventionAnswer& conve
     const PartialController& part = convention.controller->parts[k];
     const CellSet& invariant = *part.controller.invariant;
     std::optional<Tiles> tiles;
-    // With a goal posts must stay in more cells than those of the part, or come nearer.
+    // Not with a goal: then posts must stay in more cells than those of the part, or come nearer.
     if (convention.agents.size() == 1) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
     ConventionFreedom own =
         find_convention(part.controller, *part.hull, convention.agents[k], team, tiles ? &*tiles : nullptr);
@@ -117,9 +117,9 @@ MemoryNeed convention_memory(const EngineSizes& sizes, int threads) {
   if (!spec.coordination.convention) return {};
   const auto agents = static_cast<double>(spec.agents.size());
   const double freedom = agents * sizes.lanes() * sizeof(float);
-  // With a goal in two parts, one after the other.
+  // With a goal there are two parts, one after the other.
   const double parts = spec.goal ? 2 : 1;
-  constexpr double kLikeRows = 4;  // words of a row: numbers of what is equal
+  constexpr double kLikeRows = 4;  // words of a row, for the numbers of equal rows
   return {.kept = parts * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
                   (parts - 1) * sizes.set(),
           .work = sizes.readers(threads) + (agents + kLikeRows) * sizes.rows() * sizeof(double) +

@@ -14,10 +14,10 @@
 
 namespace coordreq {
 
-/// A convention and what it costs. With a goal it lies in P on the way there, so that agents arrive in time.
+/// A convention and its cost. With a goal it lies in P on the way to the goal, so that agents arrive in time.
 struct ConventionAnswer {
   std::unique_ptr<const ControllerParts> controller;
-  std::deque<ActionGrouping> agents;  ///< of each part; the actions of each agent are a class of their own
+  std::deque<ActionGrouping> agents;  ///< [part] with the actions of each agent as a class of their own
   ConventionFreedom freedom;
 };
 

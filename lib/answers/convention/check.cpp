@@ -13,7 +13,7 @@
 namespace coordreq {
 namespace {
 
-/// What all threads share.
+/// Findings that all threads share.
 struct ConventionTallies {
   Tally freedom{"convention"};
   Tally actions{"convention actions"};
@@ -48,7 +48,7 @@ class ConventionChecker : public CellChecker {
   std::vector<const std::vector<std::uint8_t>*> actions_;  ///< [agent]; null: not stored
   ConventionTallies& tallies_;
   std::vector<InputClass> agents_;
-  /// [agent][action]: the joint inputs with it.
+  /// [agent][action] The joint inputs with that action.
   std::vector<std::vector<std::vector<std::int32_t>>> joint_;
   std::optional<ClaimedProgress> progress_;  ///< with a goal
   std::vector<std::uint8_t> admitted_;  ///< [joint input] of the cell at work: in C(x), or P(x) on the way
@@ -116,7 +116,7 @@ ConventionChecker::Sets ConventionChecker::claimed_sets(std::size_t cell) const 
   for (std::size_t i = 0; i < agents_.size(); ++i) {
     const auto bytes = static_cast<std::size_t>(agents_[i].bytes());
     const std::uint8_t* const own = actions_[i]->data() + cell * bytes;
-    // Bits beyond the last action have to be 0; one that is not makes the sets differ.
+    // Bits beyond the last action must be 0: one that is set makes the sets differ.
     std::vector<std::uint8_t>& set = sets.emplace_back(bytes * 8);
     for (std::size_t a = 0; a < set.size(); ++a) set[a] = own[a / 8] >> (a % 8) & 1U;
     const auto count = static_cast<std::size_t>(agents_[i].actions());

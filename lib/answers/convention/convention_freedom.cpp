@@ -17,7 +17,7 @@ namespace {
 
 using Histogram = std::array<std::int64_t, 10>;
 
-/// What the rows of one thread add up to.
+/// Sums over the rows of one thread.
 struct Count {
   std::int64_t full = 0;
   Histogram histogram{};
@@ -35,7 +35,7 @@ void count_actions(const ActionGroups& groups, const std::vector<Word>& rows, st
   }
 }
 
-/// Writes the freedom of one agent in one row, and adds it up.
+/// Writes the freedom of one agent in one row, and adds up its values.
 class Measure {
  public:
   explicit Measure(std::int64_t row_length)
@@ -76,7 +76,8 @@ class Measure {
   std::vector<std::int32_t> all_;
 };
 
-/// The sum of the rows of all processes, in their order, so that it does not depend on who has found them.
+/// The sum of the rows of all processes, in their order, so that it does not depend on which process has
+/// found which row.
 double sum_of_rows(const std::vector<double>& rows, const RowShare* share) {
   if (share == nullptr) return std::accumulate(rows.begin(), rows.end(), 0.0);
   Ranks& ranks = share->ranks();
@@ -90,7 +91,7 @@ double sum_of_rows(const std::vector<double>& rows, const RowShare* share) {
   put_numbers<double>(message, {&sum, 1});
   const int last = ranks.count() - 1;
   if (ranks.rank() < last) ranks.send(ranks.rank() + 1, message);
-  // From the last by way of the first to all.
+  // The last rank sends the sum to the first, which sends it to all.
   if (ranks.rank() == last && last > 0) ranks.send(0, message);
   if (ranks.rank() == 0 && last > 0) message = ranks.receive(last);
   message = ranks.from_first(std::move(message));
@@ -117,10 +118,10 @@ void add_up(const std::vector<std::vector<Count>>& counts, const std::vector<std
   }
 }
 
-/// Rows of which the same is found.
+/// Rows with equal results.
 struct LikeRows {
   std::vector<std::int64_t> first;  ///< [own row] the first row like it; -1: it has no cell of K
-  std::vector<std::int64_t> count;  ///< [own row] how many there are, of a first one
+  std::vector<std::int64_t> count;  ///< [own row] number of rows like it; of first rows alone
 };
 
 LikeRows find_like_rows(const CellSet& invariant, RowShare::Range own, const RowShare* share,
@@ -137,7 +138,7 @@ LikeRows find_like_rows(const CellSet& invariant, RowShare::Range own, const Row
   return like;
 }
 
-/// What has been found for the first of rows that are alike, for all others.
+/// Copies the results of the first of like rows to the others.
 void copy_to_like_rows(const LikeRows& like, std::int64_t begin, std::int64_t length, ThreadTeam& team,
                        std::vector<std::vector<double>>& sums, ConventionFreedom& result) {
   const auto rows = static_cast<std::int64_t>(like.first.size());

@@ -13,13 +13,13 @@
 
 namespace coordreq {
 
-/// What a convention (see convention_at()) costs: per agent and cell of K the part of its admissible actions
-/// that it keeps, |P_i(x)| / |projection of C(x) on agent i|, in (0, 1].
+/// The cost of a convention (see convention_at()): for each agent and cell of K the fraction of its
+/// admissible actions that it keeps, |P_i(x)| / |projection of C(x) on agent i|, in (0, 1].
 struct ConventionFreedom {
   struct Agent {
     ZeroedArray<float> freedom;  ///< [cells of the engine's grid, row-major]; NaN outside K
     double mean = 0;             ///< over K; 0 if K is empty
-    std::int64_t full = 0;       ///< cells in which it keeps everything
+    std::int64_t full = 0;       ///< cells in which the agent keeps all actions
     /// Cells with freedom in (k / 10, (k + 1) / 10].
     std::array<std::int64_t, 10> histogram{};
   };
@@ -27,9 +27,9 @@ struct ConventionFreedom {
 };
 
 /// @param agents the actions of each agent as a class of its own, in the order of the spec
-/// @param tiles where equal work is looked for; null: nowhere. @pre null unless posts must stay in
-///   controller.invariant itself
-/// Cost: for each row of cells the choices of one group of actions an agent, times agents^2.
+/// @param tiles in which equal work is found; null: it is not looked for. @pre null unless posts must stay in
+///   controller.invariant itself Cost: for each row of cells the choices of one group of actions an agent,
+///   times agents^2.
 [[nodiscard]] ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
                                                 const ActionGrouping& agents, ThreadTeam& team,
                                                 const Tiles* tiles = nullptr);

@@ -14,12 +14,12 @@
 namespace coordreq {
 
 /// The convention of the cells of one row (see convention_at()), by groups of actions: two actions of one
-/// group are in the same pairs, so that a set has all of a group or nothing.
+/// group are in the same pairs, so that a set holds all of a group or none.
 struct ConventionRow {
   RowGroups groups;
-  bool is_free = false;  ///< every cell of K keeps everything; the rows below are not filled
-  /// [agent], then [group * words + word]: the cells in whose P_i the group is, and in whose projection of
-  /// C(x) on the agent it is.
+  bool is_free = false;  ///< every cell of K keeps all actions; the rows below are not filled
+  /// [agent], then [group * words + word]: the cells with the group in P_i(x), and those with the group in
+  /// the projection of C(x) on the agent.
   std::vector<std::vector<Word>> kept;
   std::vector<std::vector<Word>> projection;
 };
@@ -41,7 +41,7 @@ class ConventionRows {
     for (std::size_t i = 0; i < agents.size(); ++i) parts_.push_back(agents[i].parts());
   }
 
-  /// Begins with the rows of another unit.
+  /// Goes to another unit.
   void enter() { posts_.enter(); }
 
   /// @pre some cell of the row is in K
@@ -83,8 +83,8 @@ class ConventionRows {
     } while (tuple_.next());
   }
 
-  /// The groups of the lowest-numbered joint input of every cell, as the first sets. The lowest one of a
-  /// choice of groups has the lowest action of each, as numbers grow with every agent's action.
+  /// The first sets: the groups of the lowest-numbered joint input of every cell. The lowest joint input of a
+  /// choice of groups has the lowest action of each group, as numbers grow with every agent's action.
   void find_seeds(ConstRow invariant, ConventionRow& row) {
     row.kept.resize(agents_.size());
     for (std::size_t i = 0; i < agents_.size(); ++i)
@@ -107,7 +107,7 @@ class ConventionRows {
     }
   }
 
-  /// Of agent i all that goes with the sets of the others as they are.
+  /// Adds to the set of agent i all groups that fit the present sets of the others.
   void add_actions(std::size_t i, ConstRow invariant, ConventionRow& row) {
     std::vector<Word>& own = row.kept[i];
     refused_.assign(own.size(), 0);

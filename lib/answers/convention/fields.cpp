@@ -9,7 +9,7 @@
 namespace coordreq {
 namespace {
 
-/// Cells are in one part each.
+/// Fills bits part by part; each cell is in one part.
 void fill_bits_of_parts(const ConventionAnswer& convention, std::size_t agent, std::uint64_t begin,
                         std::uint64_t count, std::uint8_t* out) {
   std::vector<std::uint8_t> bits(count);

@@ -9,15 +9,15 @@ namespace coordreq {
 namespace paths {
 
 inline constexpr char kConventionFreedom[] = "/convention_freedom";
-/// What an agent may do by convention. No partition can be called "convention" with a colon before it.
+/// The actions of an agent under the convention. No partition can have a name like this, with a colon.
 [[nodiscard]] std::string convention(const AgentSpec& agent);
 
 }  // namespace paths
 
-/// How free the convention leaves each agent; on request what it may do.
+/// The freedom of each agent under the convention; on request its actions.
 [[nodiscard]] Fields convention_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_convention_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -7,10 +7,10 @@
 
 namespace coordreq {
 
-/// What the convention leaves each agent, which needs no coordination at all: on the way to a goal in P(x),
-/// else in C(x).
+/// The actions that the convention leaves to each agent, which needs no coordination at all: on the way to a
+/// goal in P(x), else in C(x).
 [[nodiscard]] AnswerPolicy convention_policy();
-/// How many of its actions each agent would keep, and that it would be silent for ever.
+/// Explains how many of its actions each agent would keep, and that it could be silent for ever.
 [[nodiscard]] Explained explain_convention(const ExplainGround& ground);
 /// None unless the spec asks for a convention.
 [[nodiscard]] std::vector<AnswerPolicy> convention_policies(const ProblemSpec& spec);

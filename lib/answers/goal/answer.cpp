@@ -104,7 +104,7 @@ std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, 
     result->parts.push_back({everywhere, &*answers.ground.hull});
     return result;
   }
-  // Where the task is over nobody needs a convention.
+  // In cells where the task is over no convention is needed.
   const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
   result->rest =
       is_in_goal_only ? goal->cells : part_of(going_on, goal->away, false, answers.ground.shared_rows());
@@ -156,7 +156,7 @@ MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
       .work = sizes.groups(single_classes(sizes.model().inputs())) + sizes.condition_of_held(*spec.goal),
       .array = partitions * sizes.cells() * sizeof(std::int16_t)};
   if (has_safe_side(spec)) {
-    const double families = spec.abstraction.between_samples ? 2 : 1;  // of posts, of tubes
+    const double families = spec.abstraction.between_samples ? 2 : 1;  // of tables: of posts, and of tubes
     need.kept += sizes.hull();
     for (std::size_t t = 0; t < spec.states.size(); ++t)
       need.kept += families * (sizes.table(t) + sizes.slices(t));

@@ -18,7 +18,8 @@
 
 namespace coordreq {
 
-/// How soon the goal can be reached, and how long silence costs no time on the way (contract, section 5).
+/// How soon the goal can be reached, and for how long silence costs no time on the way to it (contract,
+/// section 5).
 struct Goal {
   std::unique_ptr<ProgressEngine> engine;
   CellSet cells;    ///< G
@@ -27,7 +28,7 @@ struct Goal {
   struct Sizes {
     std::int64_t cells = 0;    ///< |G|
     std::int64_t winning = 0;  ///< |W|
-    std::int64_t safe = 0;     ///< cells of S that are in the goal, whether they can be kept safe or not
+    std::int64_t safe = 0;     ///< cells of S in the goal, also those that cannot be kept safe
   };
   Sizes sizes;
   LevelMap nearness;                    ///< of all cells, see find_nearness()
@@ -41,22 +42,22 @@ struct Goal {
 [[nodiscard]] std::vector<Stage> goal_stages(const ProblemSpec& spec);
 [[nodiscard]] MemoryNeed goal_memory(const EngineSizes& sizes, int threads);
 void summarise_goal(const Answers& answers, Json& summary, Json& work);
-/// A goal that nothing arrives at, or nothing but what is there already.
+/// Warns of a goal at which no cell arrives, or none but its own.
 [[nodiscard]] Warnings advise_on_goal(const Answers& answers);
 void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
-/// C where no progress is asked for, and P on W \ G: controllers of cells that are not the same, which
-/// together are that of a run towards the goal, or, without a goal, C alone.
+/// C in cells without progress, and P on W \ G: controllers of different cells, which together are the
+/// controller of a run towards the goal; without a goal C alone.
 struct PartialController {
   Controller controller;
   const RowHull* hull = nullptr;
 };
-/// What a PartialController refers to beside the answers.
+/// The controllers and sets to which a PartialController refers, beside the answers.
 struct ControllerParts {
   CellSet rest;  ///< the cells of K where C holds
   std::vector<PartialController> parts;
 };
-/// @param is_in_goal_only whether C holds in G alone, not in all of K without W \ G
+/// @param is_in_goal_only whether C holds in G alone, and not in all of K outside W \ G
 [[nodiscard]] std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers,
                                                                       bool is_in_goal_only);
 

@@ -12,7 +12,7 @@
 namespace coordreq {
 namespace {
 
-/// The cells of W \ G where every choice of IND_P comes nearer.
+/// The cells of W \ G where every choice of IND_P comes nearer to the goal.
 CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, ThreadTeam& team) {
   const RowEngine& engine = sets.progress->engine();
   CellSet result(engine.rows(), engine.row_length());
@@ -39,7 +39,8 @@ CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, 
   return result;
 }
 
-/// Layers under IND_P of the cells where all choices come nearer; all others keep theirs.
+/// The operator of layers under IND_P for the cells where all choices come nearer; other cells keep their
+/// levels.
 template <class Level>
 class ApproachActions final : public RowOperator<Level> {
  public:

@@ -10,7 +10,7 @@
 namespace coordreq {
 namespace {
 
-/// Nothing is known but what the goal is.
+/// The levels to begin with: kTop in the goal, 1 in K outside it, 0 outside K.
 LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const CellSet& goal,
                         bool interned) {
   auto levels = engine.make_levels<std::uint8_t>(engine.posts(), interned);

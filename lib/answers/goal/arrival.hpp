@@ -16,29 +16,29 @@
 // How soon a goal can be reached (contract, section 5): the least solution of arrival(x) = 0 in G,
 // 1 + min over u in C(x) of max over y in f(x,u) of arrival(y) elsewhere in K.
 //
-// It is held as *nearness*, kTop - arrival: the farthest cell of a post is then the one of the least level,
-// so that the readers of posts, which take minima, and the operators of K are those of arrival too. The least
-// solution of arrival is the greatest of nearness that can be reached from below, and levels rise to it from
-// G. (Arrivals that sink from infinity would need readers that take maxima.)
+// Arrival is held as *nearness*, kTop - arrival: the farthest cell of a post then has the least level, so
+// that the readers of posts, which take minima, and the operators of K serve arrival too. The least solution
+// of arrival is the greatest of nearness that can be reached from below, and levels rise to it from G.
+// (Arrivals that sink from infinity would need readers that take maxima.)
 namespace coordreq {
 
-/// Arrival of a cell from where the goal cannot be forced.
+/// Arrival of a cell from which the goal cannot be forced.
 inline constexpr std::int32_t kNeverArrives = std::numeric_limits<std::int32_t>::max();
 
-/// What a level of nearness says. @pre it is that of a cell in K
+/// The arrival that a level of nearness stands for. @pre the level is that of a cell in K
 template <class Level>
 [[nodiscard]] std::int32_t arrival_of(Level nearness) {
   REQUIRES(nearness > 0);
   if (nearness <= 1) return kNeverArrives;
   return static_cast<std::int32_t>(LevelRows<Level>::kTop - nearness);
 }
-/// Of a cell (row-major linear index) in K.
+/// The arrival of a cell (row-major linear index) in K.
 [[nodiscard]] std::int32_t arrival_at(const LevelMap& nearness, std::int64_t cell);
 
 /// Nearness of all cells: 0 outside K, 1 where the goal cannot be forced, kTop in the goal.
-/// @param engine that of ProgressEngine
-/// @param invariant K @param goal G, a part of it
-/// @param tiles where equal work is looked for; may be null
+/// @param engine of ProgressEngine
+/// @param invariant K @param goal G, a part of K
+/// @param tiles in which equal work is found; null: it is not looked for
 [[nodiscard]] LevelMap find_nearness(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
                                      const CellSet& goal, Synthesis synthesis, const WaveWatch& watch,
                                      ThreadTeam& team, WaveCounts& counts, const Tiles* tiles = nullptr);

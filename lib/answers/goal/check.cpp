@@ -18,7 +18,7 @@ namespace coordreq {
 namespace {
 
 constexpr std::int32_t kMustStand = -3;
-/// What all threads share about one partition.
+/// Findings of one partition that all threads share.
 struct ApproachTallies {
   explicit ApproachTallies(const std::string& name)
       : delay("approach delay " + name),
@@ -33,10 +33,10 @@ struct GoalTallies {
   Tally goal{"goal"};
   Tally arrival{"arrival"};
   Tally controller{"controller to the goal"};
-  std::deque<ApproachTallies> approach;  // they cannot be moved
+  std::deque<ApproachTallies> approach;  // tallies cannot be moved
 };
 
-/// What the file says, as far as the goal is concerned.
+/// The claims of the file about the goal.
 struct GoalClaims {
   explicit GoalClaims(const Claims& claims)
       : arrival(claims.values("/arrival")),
@@ -56,7 +56,7 @@ struct GoalClaims {
   const std::vector<std::int64_t>& of_safety;             ///< likewise, of the delays
 };
 
-/// A class of a partition, and what the file says of its actions.
+/// A class of a partition, and its actions in the file.
 struct GoalClass {
   InputClass own;
   const std::vector<std::uint8_t>* actions = nullptr;  ///< null: not stored
@@ -85,7 +85,7 @@ class GoalChecker : public CellChecker {
 
   void check(CheckedCell& cell) override {
     const std::int32_t arrival = claims_.arrival[cell.at()];
-    // A goal that ends the task makes its cells part of K, so that all of S are asked.
+    // All cells of a goal that ends the task are in K, so that all cells of S are checked.
     if (ground_.spec->ends_at_goal ? cell.is_safe() : cell.is_invariant()) check_goal(cell, arrival == 0);
     check_arrival(cell, arrival);
     find_progress(cell, arrival);
@@ -100,7 +100,7 @@ class GoalChecker : public CellChecker {
   }
 
  private:
-  /// P(x); in the goal C(x), and nothing from where the goal cannot be forced.
+  /// Finds P(x); in the goal C(x), and nothing in a cell from which the goal cannot be forced.
   void find_progress(CheckedCell& cell, std::int32_t arrival) {
     progress_.assign(cell.admitted().size(), 0);
     if (!cell.is_invariant()) return;
@@ -196,7 +196,7 @@ class GoalChecker : public CellChecker {
         expected = std::min(expected, static_cast<std::int32_t>(*most));
     }
     if (claimed == expected) return;
-    // The file does not say which choices there are.
+    // The file does not have the choices of agents.
     if (ground_.sound_only() && expected >= 0 && claimed >= 0) {
       tally.add_unproven();
     } else {
@@ -242,9 +242,9 @@ class GoalChecker : public CellChecker {
   const std::vector<std::uint8_t>* controller_;  ///< null: not stored
   SafeJudge judge_;
   std::vector<std::vector<GoalClass>> classes_;  ///< [partition]
-  // Of the cell at work:
+  // Of the cell being checked:
   std::vector<std::uint8_t> progress_;                  ///< P(x), in the goal C(x)
-  std::vector<std::vector<std::uint8_t>> projections_;  ///< [class of the partition at work][action]
+  std::vector<std::vector<std::uint8_t>> projections_;  ///< [class of the partition being checked][action]
 };
 
 class GoalCheck : public AnswerCheck {
@@ -291,8 +291,8 @@ class GoalCheck : public AnswerCheck {
   }
 
  private:
-  /// |A_k| of one partition, and F, with the delays of its cells.
-  /// @param layers the most of any partition so far
+  /// Compares |A_k| of one partition, and F, with the delays of its cells.
+  /// @param layers the most layers of any partition so far
   [[nodiscard]] Finding compare_layers(std::size_t p, std::size_t& layers) const {
     Comparison comparison("approach layers " + ground_.spec->coordination.partitions[p].name);
     const std::size_t length = claims_.sizes.size() / claims_.delay.size();
@@ -315,13 +315,13 @@ class GoalCheck : public AnswerCheck {
   }
 
   /// Whether `max_delay` M stopped the iteration: unless A_M is empty, or A and Z stood still before.
-  /// @param claimed then cells of delay M are those that were left
+  /// @param claimed whether the file says so; then cells of delay M are those of the last layer
   [[nodiscard]] bool is_stopped(std::size_t p, std::int64_t last, bool unbounded, bool claimed) const {
     const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
     if (!most) return false;
     if (claimed && (unbounded || last != *most)) return false;
-    if (!claimed && !unbounded) return last >= *most;  // all have left before
-    std::int64_t fixed = 0;                            // from here on A stands still
+    if (!claimed && !unbounded) return last >= *most;  // the layers were empty before
+    std::int64_t fixed = 0;                            // A_k is constant from here on
     for (const std::int32_t delay : claims_.delay[p]) {
       if (delay >= 0 && delay != kForever && delay < *most) fixed = std::max(fixed, std::int64_t{delay} + 1);
     }

@@ -150,7 +150,7 @@ Fields goal_fields(const ProblemSpec& spec) {
   if (!spec.goal) return {};
   Fields fields = {arrival_field(spec)};
   add_approach(fields, spec);
-  // They can stand still while the layers of safety lose a cell each, and lose one each after that.
+  // Layers of approach can be constant while each layer of safety loses a cell, and then lose a cell each.
   add_sizes(fields, "/approach_", 'A', 2 * cell_count(spec), spec);
   if (spec.output.controller) {
     add_bits(fields, paths::kProgress, FieldSection::controller, spec, all_inputs(spec),

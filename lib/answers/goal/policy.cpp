@@ -25,7 +25,7 @@ class GoalPolicy : public CellPolicy {
  private:
   CellValue arrival_;
   ProgressInputs progress_;
-  Numbers progressing_;  ///< P(x) of the cell at work
+  Numbers progressing_;  ///< P(x) of the last cell asked about
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace coordreq {
 namespace {
 
-/// @pre unchecked: the rules are those of a grid with such a side.
+/// The grid with `unsafe` in place of `safe` sides. @pre unchecked: it has a `safe` side
 UniformGrid without_safe_sides(const UniformGrid& grid) {
   std::vector<GridDimension> dimensions = grid.dimensions();
   for (GridDimension& dimension : dimensions) {

@@ -4,13 +4,13 @@
 
 namespace coordreq {
 
-/// The engine by which nearness to a goal is read: a post that leaves through a `safe` side does not come
-/// nearer to anything, and reads as one that is blocked. (Contract, section 5: T has an infinite arrival
-/// there, and a pair that may leave through a `goal` side too makes no progress.) Where no side is `safe`
-/// that is the engine of the ground. Else tables are held a second time, as their rows are cut otherwise.
+/// The engine that reads nearness to a goal: a post that leaves through a `safe` side does not come nearer to
+/// the goal, and is read as blocked. (Contract, section 5: T has an infinite arrival there, and a pair that
+/// may leave through a `goal` side too makes no progress.) Where no side is `safe` it is the engine of the
+/// ground. Else tables are held a second time, as their rows are cut differently.
 class ProgressEngine {
  public:
-  /// @pre `ground` is laid. @pre unchecked: it outlives this object
+  /// @pre `ground` is laid. @pre unchecked: `ground` outlives this object
   explicit ProgressEngine(const Ground& ground);
   ProgressEngine(const ProgressEngine&) = delete;
   ProgressEngine& operator=(const ProgressEngine&) = delete;
@@ -18,7 +18,7 @@ class ProgressEngine {
 
   [[nodiscard]] const RowEngine& engine() const { return engine_ ? *engine_ : *ground_->engine; }
   [[nodiscard]] const RowHull& hull() const { return hull_ ? *hull_ : *ground_->hull; }
-  /// The tiles or null.
+  /// The tiles of the ground if this is its engine, else null.
   [[nodiscard]] const Tiles* equal_work() const { return engine_ ? nullptr : ground_->equal_work(); }
 
  private:

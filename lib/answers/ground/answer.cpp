@@ -13,15 +13,15 @@
 namespace coordreq {
 namespace {
 
-/// In the order of the model. Rows run along several dimensions where they can, and all that the spec asks
-/// for can be read off them.
+/// The abstraction in the order of the model, with rows along several dimensions where they can run so and no
+/// answer of the spec needs rows along one.
 Abstraction in_order(const Model& model, Abstraction abstraction) {
   abstraction = arranged(std::move(abstraction), model.order());
   abstraction.grid = join_rows(abstraction, model.most_along());
   return abstraction;
 }
 
-/// Which entries of tables by cells this process has. Together: the rows are cut if that is done before there
+/// The entries of tables by cells that this process has. Together: cuts the rows if they are cut before there
 /// are tables.
 HeldCells held_cells(Ground& ground) {
   const Model& model = ground.model;
@@ -33,7 +33,7 @@ HeldCells held_cells(Ground& ground) {
   return {.order = model.order(), .begin = rows.begin * row, .end = rows.end * row};
 }
 
-/// What is kept of it is in the order of the spec, but for tables by cells.
+/// Finds the abstraction, or takes the kept one, which is in the order of the spec but for tables by cells.
 void find_abstraction(Ground& ground, const StageWork& work) {
   const ProblemSpec& spec = ground.spec;
   std::optional<Abstraction>& abstraction = ground.abstraction;
@@ -63,7 +63,7 @@ void summarise_ground(const Answers& answers, Json& summary, Json& /*work*/) {
   summary["name"] = ground.spec.name;
   summary["cells"] = ground.abstraction->grid.points();
   summary["joint_inputs"] = ground.abstraction->inputs.count();
-  // Older names of the two.
+  // Older names of these two counts.
   summary["states"] = summary["cells"];
   summary["inputs"] = summary["joint_inputs"];
   if (ground.listed) {

@@ -9,7 +9,7 @@
 namespace coordreq {
 
 /// "abstraction" and "safe set": Answers::ground.
-/// @throws SpecError for what only shows when the system is built
+/// @throws SpecError for errors that show only when the system is built
 [[nodiscard]] std::vector<Stage> ground_stages(const ProblemSpec& spec);
 void summarise_ground(const Answers& answers, Json& summary, Json& work);
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "answers/field_parts.hpp"
-#include "answers/latest.hpp"
+#include "answers/last_value_cache.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
@@ -40,7 +40,7 @@ Field input_axis(const InputSpec& input) {
               [values = input.values](std::uint64_t k) { return nearest_double(values[k]); });
 }
 
-/// The finite abstraction, of what each state depends on.
+/// Fields of the finite abstraction: each table is over the states and inputs that its state depends on.
 void add_abstraction(Fields& fields, const ProblemSpec& spec) {
   const std::vector<TableShape> shapes = table_shapes(spec);
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
@@ -63,12 +63,12 @@ void add_abstraction(Fields& fields, const ProblemSpec& spec) {
   }
 }
 
-using WrittenOut = Latest<std::size_t, TransitionTable>;
+using TableCache = LastValueCache<std::size_t, TransitionTable>;
 
-/// One end of all ranges of the table of a state, which is written out when it is asked for, unless it is in
-/// full: then the states have the order of the spec, and several processes are asked each for its own cells.
+/// One end of all ranges of the table of a state. The table is written out when it is asked for, unless it is
+/// full: full tables have the order of the spec, and each process is asked for its own cells.
 ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t IndexRange::*end,
-                       const std::shared_ptr<WrittenOut>& tables) {
+                       const std::shared_ptr<TableCache>& tables) {
   return {ElementType::int32,
           [&answers, state, end, tables](std::uint64_t begin, std::uint64_t count, void* out) {
             const TransitionTable& own = answers.ground.abstraction->tables[state];
@@ -99,7 +99,7 @@ Fields ground_fields(const ProblemSpec& spec) {
 
 void fill_ground_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const ProblemSpec& spec = answers.ground.spec;
-  const auto table = std::make_shared<WrittenOut>();
+  const auto table = std::make_shared<TableCache>();
   for (std::size_t i = 0; spec.output.abstraction && i < spec.states.size(); ++i) {
     const std::string group = "/abstraction/" + spec.states[i].name;
     values.entries[group + "/first"].array = ends_array(answers, i, &IndexRange::first, table);

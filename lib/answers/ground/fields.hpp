@@ -10,7 +10,7 @@ namespace coordreq {
 /// The axes of states, inputs and partitions; on request the finite abstraction.
 [[nodiscard]] Fields ground_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_ground_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -14,7 +14,7 @@
 namespace coordreq {
 namespace {
 
-/// The sets of the cells of one row.
+/// Writes the sets of the cells of one row.
 template <class Level>
 void write_row(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
                const LevelRows<Level>& levels, const RowPlace& place, PostReader<Level>& posts,

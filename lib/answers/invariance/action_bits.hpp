@@ -11,14 +11,14 @@ namespace coordreq {
 /// Writes sets of actions as packed bits, one set a cell: bit a % 8 of byte a / 8 is action a.
 ///
 /// For every cell of the rows [first_row, last_row): the projection of C(x) onto class c of the grouping
-/// (contract, `/actions`). With one class of all inputs this is C(x) itself (`/controller`).
-/// Computed on the fly, since C is never stored.
+/// (contract, `/actions`). With one class of all inputs this is C(x) itself (`/controller`). Computed when
+/// called, since C is never stored.
 /// @returns bytes [rows, row_length, ceil(actions / 8)]
 [[nodiscard]] std::vector<std::uint8_t> action_bits(const Controller& controller,
                                                     const ActionGrouping& grouping, std::size_t c,
                                                     std::int64_t first_row, std::int64_t last_row);
 
-/// The stretch [begin, begin + count) of those bytes over the whole grid, row-major.
+/// Fills the stretch [begin, begin + count) of these bytes over the whole grid, row-major.
 void fill_action_bits(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
                       std::uint64_t begin, std::uint64_t count, void* out);
 

@@ -15,12 +15,12 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
   const Synthesis synthesis = ground.spec.controller.synthesis;
   Invariance& result = answers.add(Invariance{});
-  // No cell is lost later than all others one after the other.
+  // No level is greater than if cells were lost one by one.
   const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
-  const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
+  const std::optional<RowSymmetry> symmetry = ground.symmetry(single_classes(ground.abstraction->inputs));
   find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
     Invariance found = find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team,
-                                       ground.equal(mirror ? &*mirror : nullptr), ground.over_or_null());
+                                       ground.equal(symmetry ? &*symmetry : nullptr), ground.over_or_null());
     result.counts = found.counts;
     return std::move(found.collision_time);
   });

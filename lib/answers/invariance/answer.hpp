@@ -13,8 +13,8 @@
 
 namespace coordreq {
 
-/// The cells of K in which the task goes on, and C there: all, but for a goal that ends it. Agents choose
-/// nothing in that, so that whatever asks what they may choose asks it of these cells.
+/// The cells of K in which the task goes on, and C there: all of K but the cells of a goal that ends the
+/// task, where agents choose nothing. Code that asks for the choices of agents asks for them in these cells.
 struct GoingOn {
   CellSet cells;  ///< K \ G; not used, and empty, where no goal ends the task
   Controller controller;
@@ -22,8 +22,8 @@ struct GoingOn {
 
 /// Adds Invariance, with the Controller of its K, and GoingOn: "invariance".
 [[nodiscard]] std::vector<Stage> invariance_stages(const ProblemSpec& spec);
-/// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
-/// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
+/// The guarantee of a result of this spec: "samples", "samples-center" or "continuous" (contract, "What is
+/// guaranteed"). Safety at centres proves nothing about tubes, so that it is never "continuous".
 [[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
 [[nodiscard]] MemoryNeed invariance_memory(const EngineSizes& sizes, int threads);
 void summarise_invariance(const Answers& answers, Json& summary, Json& work);

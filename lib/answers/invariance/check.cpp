@@ -12,7 +12,7 @@
 namespace coordreq {
 namespace {
 
-/// What all threads share.
+/// Findings that all threads share.
 struct SetTallies {
   Tally safe{"S"};
   Tally invariant{"K"};
@@ -36,7 +36,7 @@ class SetChecker : public CellChecker {
       check_outside(cell);
     } else if (!cell.is_invariant()) {
       check_escape(cell);
-    } else if (cell.is_over()) {  // that it is, the check of the goal tells
+    } else if (cell.is_over()) {  // the check of the goal checks that it is
       tallies_.invariant.add_checked(1);
       check_collision_time(cell, kForever);
     } else {
@@ -64,7 +64,7 @@ class SetChecker : public CellChecker {
     check_collision_time(cell, 0);
   }
 
-  /// A cell of S outside K: why no coordination helps.
+  /// Checks a cell of S outside K: that no coordination keeps it safe.
   void check_escape(CheckedCell& cell) {
     const bool maximal = ground_.spec->controller.synthesis == Synthesis::maximal;
     bool any = false;
@@ -86,7 +86,7 @@ class SetChecker : public CellChecker {
     check_collision_time(cell, any ? one_more(best) : 1);
   }
 
-  /// A cell of K: that it can be kept there.
+  /// Checks a cell of K: that it can be kept in K.
   void check_stay(const CheckedCell& cell) {
     check_collision_time(cell, kForever);
     tallies_.invariant.add_checked(1);

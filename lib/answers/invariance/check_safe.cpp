@@ -57,7 +57,7 @@ SafeVerdict SafeJudge::judge(std::int64_t cell, bool claimed) {
   return verdict == SafeVerdict::unknown ? SafeVerdict::open : verdict;
 }
 
-/// Calls `visit` with the boxes that a cell consists of until it returns false.
+/// Calls `visit` with the boxes of a cell until it returns false.
 template <class Visit>
 void SafeJudge::for_each_piece(std::int64_t cell, const Visit& visit) const {
   const std::vector<std::size_t>& states = memory_.states();

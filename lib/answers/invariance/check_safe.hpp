@@ -12,16 +12,16 @@
 
 namespace coordreq {
 
-/// What is found about a cell and `safe`, or the condition of the goal.
+/// The verdict on a cell and `safe`, or the condition of the goal.
 enum class SafeVerdict : std::uint8_t {
-  unknown,  ///< not looked at
+  unknown,  ///< not judged yet
   safe,     ///< natural interval evaluation proves it: the cell has to be in S
-  proven,   ///< all of it is safe, but that takes more: the cell may be in S
-  unsafe,   ///< it holds a point that is not: the cell must not be in S
+  proven,   ///< the whole cell is safe, but natural evaluation does not prove it: the cell may be in S
+  unsafe,   ///< the cell holds a point that is not safe: it must not be in S
   open,     ///< neither proven nor refuted; as good as unsafe
 };
 
-/// Verdicts that cells share which differ only in states that `safe` does not mention.
+/// Verdicts, shared by cells that differ only in states that `safe` does not mention.
 class SafeMemory {
  public:
   SafeMemory(const Program& condition, const UniformGrid& grid);
@@ -30,18 +30,18 @@ class SafeMemory {
 
  private:
   const UniformGrid& grid_;
-  std::vector<std::size_t> states_;  ///< mentioned
+  std::vector<std::size_t> states_;  ///< that the condition mentions
   std::vector<std::atomic<SafeVerdict>> verdicts_;
 };
 
-/// Decides whether a cell belongs to S (contract, "Safe set"), or is a goal cell likewise. One object a
-/// thread; all share the memory.
+/// Decides whether a cell belongs to S (contract, "Safe set"), or to the goal likewise. One object a thread;
+/// all share the memory.
 class SafeJudge {
  public:
   SafeJudge(const ProblemSpec& spec, const Program& condition, const UniformGrid& grid, SafeMemory& memory);
 
-  /// @param claimed whether the file has the cell in S: only then it matters what natural evaluation leaves
-  /// open
+  /// @param claimed whether the file has the cell in S: only then are cells judged that natural evaluation
+  ///   leaves open
   [[nodiscard]] SafeVerdict judge(std::int64_t cell, bool claimed);
 
  private:

@@ -13,19 +13,19 @@ class RowEngine;
 /// f(x,u) subset of K}, `given` C(x) = {u allowed}; empty outside K. Never stored, computed row by row.
 /// The paper's C, whose projections make IND_C (its Eq. (3) and (4)).
 ///
-/// Or a part of it, C at some cells of K only. Or the progress controller P outside the goal (contract,
-/// section 5): of `maximal` all u allowed after which every cell of the post is nearer to the goal, empty
-/// outside W \ G.
+/// Or a part of C, at some cells of K only. Or the progress controller P outside the goal (contract, section
+/// 5): of `maximal` all u allowed after which every cell of the post is nearer to the goal; empty outside
+/// W \ G.
 struct Controller {
   const RowEngine* engine = nullptr;
-  const CellSet* invariant = nullptr;  ///< where it is not empty
-  /// Of C collision times, kTop in K and nowhere else; of P nearness.
+  const CellSet* invariant = nullptr;  ///< the cells where the controller is not empty
+  /// For C collision times, kTop exactly in K; for P nearness.
   const LevelMap* levels = nullptr;
   Synthesis synthesis = Synthesis::maximal;
-  bool approaches = false;         ///< it is P
-  const CellSet* whole = nullptr;  ///< K, where C is asked of a part of it; null: that is `invariant`
+  bool approaches = false;         ///< the controller is P
+  const CellSet* whole = nullptr;  ///< K, if this is C at a part of K; null: `invariant` is K
 
-  /// K. @pre it is C, and K has been told
+  /// K. @pre this is C, and K was given
   [[nodiscard]] const CellSet& target() const {
     REQUIRES(!approaches && (whole != nullptr || invariant != nullptr));
     return whole == nullptr ? *invariant : *whole;

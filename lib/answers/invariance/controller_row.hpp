@@ -10,9 +10,9 @@
 
 namespace coordreq {
 
-/// {x in the row : u in C(x)} for all u in one choice of groups.
+/// out = {x in the row : u in C(x)}, the same for all u in one choice of groups.
 /// @param posts of `levels`, which are controller.levels
-/// @param lanes at least these cells of the row are found, if they are in it
+/// @param lanes cells outside these lanes may be missing
 /// @pre `out` has engine->row_words() words
 template <class Level>
 void controller_row(const Controller& controller, const LevelRows<Level>& levels, std::int64_t row,

@@ -8,7 +8,7 @@
 namespace coordreq {
 namespace paths {
 
-// What all answers stand on, so that readers may know it by name.
+// The fields that all answers depend on, so that readers may know them by name.
 inline constexpr char kSafe[] = "/safe";
 inline constexpr char kInvariant[] = "/invariant";
 inline constexpr char kCollisionTime[] = "/collision_time";
@@ -19,10 +19,10 @@ inline constexpr char kListed[] = "/controller:file";
 
 }  // namespace paths
 
-/// S, K and collision times; on request C(x), and what `controller.file` lists.
+/// S, K and collision times; on request C(x), and the pairs that `controller.file` lists.
 [[nodiscard]] Fields invariance_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -10,7 +10,7 @@
 
 namespace coordreq {
 
-/// The invariance set K and when each cell was lost, contract "Controller".
+/// The invariance set K, and when each cell is lost; contract "Controller".
 struct Invariance {
   CellSet invariant;       ///< in the rows held
   std::int64_t cells = 0;  ///< |K|
@@ -23,14 +23,14 @@ struct Invariance {
 
 /// K: for `maximal` the greatest K with K = {x in K n S : some allowed u has empty != f(x,u) subset of K};
 /// for `given` the limit of SPRE_S^i(X), C(x) being all that `allow` permits (paper, Eq. (10) and Lemma 1).
-/// With a goal that ends the task the greatest, or the limit, of sets that have all of G beside these cells.
-/// @param equal its `numbers` are those of the tables if there are none
+/// With a goal that ends the task all cells of G belong to every set.
+/// @param equal without `numbers` those of the tables are taken
 /// @param over G, a part of S; null: no goal ends the task
 [[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                                          Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
                                          const EqualWork& equal = {}, const CellSet* over = nullptr);
 
-/// Fills in all that follows from the collision times.
+/// Fills in the members that follow from the collision times.
 void follow_from_collision_times(Invariance& invariance, ThreadTeam& team);
 
 }  // namespace coordreq

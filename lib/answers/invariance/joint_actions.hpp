@@ -10,7 +10,7 @@
 #include "engine/wave.hpp"
 #include "spec/spec_types.hpp"
 
-// What all agents together can do, as operators on levels.
+// Operators on levels for the joint actions of all agents together.
 namespace coordreq {
 
 template <class Level>
@@ -25,8 +25,8 @@ struct JointWorkspace {
   std::vector<Word> some_allowed;
 };
 
-/// level(x) = 1 + max over allowed u of min over f(x,u): one safe action is enough. Or, where levels rise, -1
-/// instead of 1: the action that comes nearest to the goal.
+/// level(x) = 1 + max over allowed u of min over f(x,u): one safe action is enough. Where levels rise it is
+/// level(x) = -1 + max ...: the action that comes nearest to the goal.
 template <class Level>
 class SomeAction final : public RowOperator<Level> {
  public:
@@ -44,17 +44,18 @@ class SomeAction final : public RowOperator<Level> {
     }
     std::fill_n(next, posts.lanes(), Level{0});
     grouping_.group(place, work.groups);
-    // A larger post is never of use where a smaller one of the same class is allowed alike.
+    // An action is not needed if another one of its class has a smaller post and is allowed at the same
+    // cells.
     choose_groups(work.groups, GroupChoice::minimal, work.candidates);
     work.tuple.begin(grouping_, place, work.groups, work.candidates);
     LaneRange open = grouping_.engine().all_lanes();
-    // Rows that are cut are read as a whole.
+    // Rows that are cut are read as a whole: to read fewer lanes only cost there.
     const bool is_cut = grouping_.engine().posts().is_cut();
     if (!is_cut) allow_at_most(old, posts.lanes(), work);
     do {
       raise(open, work, posts, next);
       if (rises_) continue;
-      // No action can do better than to leave all as it was.
+      // No action can do better than to leave all levels as they were.
       if (is_cut && kernels.is_settled(next, old, n)) return false;
       if (is_cut) continue;
       const LaneRange still = kernels.below(next + open.begin, work.everywhere.data(),
@@ -67,7 +68,7 @@ class SomeAction final : public RowOperator<Level> {
   [[nodiscard]] bool rises() const override { return rises_; }
 
  private:
-  /// Levels below which a cell may still sink.
+  /// work.most = the levels in `next` below which cells would sink.
   void allow_at_most(const Level* old, std::size_t lanes, JointWorkspace<Level>& work) const {
     work.everywhere.resize(lanes, PostReader<Level>::kTop);
     work.most.resize(lanes);
@@ -94,7 +95,7 @@ class SomeAction final : public RowOperator<Level> {
   std::vector<JointWorkspace<Level>> work_;
 };
 
-/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe. That
+/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe. This
 /// is PRE of the paper, Eq. (9), for all sets of the sequence at once.
 template <class Level>
 class EveryAction final : public RowOperator<Level> {

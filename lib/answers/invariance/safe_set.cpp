@@ -12,7 +12,7 @@
 namespace coordreq {
 namespace {
 
-/// A condition at all grid points; nothing if it permits everything.
+/// The condition at all grid points; nothing if it permits all pairs.
 std::optional<ConditionTable> condition_table(const PairCondition& condition, const ProblemSpec& spec,
                                               const Abstraction& abstraction,
                                               std::optional<RowShare::Range> leading, ThreadTeam& team) {
@@ -60,8 +60,8 @@ struct LeadingRuns {
   std::vector<RowShare::Range> runs;
 };
 
-/// Runs are together as long as no index between them is without rows; or where such an index does not
-/// matter.
+/// Joins runs that have neighbouring indices in the first dimension; all runs, if the condition does not
+/// depend on that dimension.
 std::vector<LeadingRuns> leading_runs(const Program& condition, const UniformGrid& grid,
                                       const std::vector<RowShare::Range>& runs) {
   const std::vector<std::uint32_t> slots = condition.variables();
@@ -78,7 +78,7 @@ std::vector<LeadingRuns> leading_runs(const Program& condition, const UniformGri
   return groups;
 }
 
-/// @param grid whose rows the table tells of, in pieces
+/// Adds cells of the table in some runs of rows. @param grid of the rows of the table
 void add_rows(const ConditionTable& table, const UniformGrid& grid, const std::vector<RowShare::Range>& runs,
               ThreadTeam& team, CellSet& cells) {
   const std::size_t last = grid.size() - 1;

@@ -29,14 +29,14 @@ Excess find_excess(const TransitionTable& tube, const GridDimension& dimension, 
   };
   for (const IndexRange entry : tube.entries) {
     if (!tube.shift) add(entry);
-    // The entry of a shift serves every index of its own.
+    // An entry of a shift serves every index of the state itself.
     for (std::int64_t own = 0; tube.shift && own < dimension.count; ++own) add(moved(entry, own));
   }
   if (ranks == nullptr) return excess;
   return {ranks->greatest(excess.below), ranks->greatest(excess.above)};
 }
 
-/// A place that 32 bits do not hold: nobody knows how far it goes.
+/// Whether an end of a tube is an index that was cut to 32 bits, so that it is not known how far it goes.
 bool is_lost(std::int64_t excess, std::int64_t count) {
   return excess + count > Limits::max();
 }
@@ -77,7 +77,8 @@ void add_safe_beyond(const TubeLimits& limits, const ProblemSpec& spec, const Ab
                          beyond);
   for (const RowShare::Range run : runs) {
     for (const auto& [dimension, index] : limits.unknown) remove_cells(beyond, grid, run, dimension, index);
-    // More is asked of these cells, but a sharper evaluation may have more luck with a larger box.
+    // The condition is asked of larger boxes than for S, but evaluation is not monotone: cells outside S are
+    // taken out.
     for (std::int64_t row = run.begin; row < run.end; ++row)
       std::ranges::transform(beyond.row(row), safe.row(row), beyond.row(row).begin(), std::bit_and<>());
   }

@@ -15,25 +15,26 @@ namespace coordreq {
 
 /// How far tubes go beyond the domain where a state saturates.
 struct TubeLimits {
-  std::vector<GridDimension> dimensions;                      ///< as far
-  std::vector<std::pair<std::size_t, std::int64_t>> unknown;  ///< dimension, index: nobody knows how far
+  std::vector<GridDimension> dimensions;  ///< stretched as far as tubes go
+  /// (dimension, index) Boundary cells beyond which it is not known how far tubes go.
+  std::vector<std::pair<std::size_t, std::int64_t>> unknown;
 };
 /// @param ranks processes that have divided the tubes, together; null: there is one
-/// @returns nothing where that makes no difference, or if there are no tubes
+/// @returns nothing if no tube goes beyond the domain, or if there are no tubes
 [[nodiscard]] std::optional<TubeLimits> find_tube_limits(const ProblemSpec& spec,
                                                          const Abstraction& abstraction,
                                                          Ranks* ranks = nullptr);
 
-/// TubeSets::beyond, in some rows. What `saturate` resets at the sample is beyond its limit until then, and
-/// resolve() reads that as the boundary cell. So a boundary cell counts only if `safe` holds on all of it and
-/// as far beyond it as any tube goes that is not blocked. (With `"safe": "center"` only centres are asked, as
-/// ever.)
+/// Adds cells of TubeSets::beyond, in some rows. A state that `saturate` resets at the sample is beyond its
+/// limit until then, where resolve() gives the boundary cell. So a boundary cell counts only if `safe` holds
+/// on all of it and as far beyond it as any tube goes that is not blocked. (With `"safe": "center"` only
+/// centres are asked.)
 /// @param safe S, in these rows @param beyond has none of these rows yet
 void add_safe_beyond(const TubeLimits& limits, const ProblemSpec& spec, const Abstraction& abstraction,
                      const CellSet& safe, const std::vector<RowShare::Range>& runs, ThreadTeam& team,
                      CellSet& beyond);
 
-/// The same in all rows; nothing as for find_tube_limits().
+/// TubeSets::beyond in all rows; nothing where find_tube_limits() returns nothing.
 [[nodiscard]] std::optional<CellSet> safe_beyond_limits(const ProblemSpec& spec,
                                                         const Abstraction& abstraction, const CellSet& safe,
                                                         ThreadTeam& team);

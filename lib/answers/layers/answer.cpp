@@ -19,8 +19,9 @@
 namespace coordreq {
 namespace {
 
-/// Whether unbounded cells whose runs leave through a `safe` side are counted. Where all coordinate nobody is
-/// ever silent, and beside a controller file classes may do what it does not list.
+/// Whether unbounded cells whose runs leave through a `safe` side are counted. Not if all agents coordinate,
+/// who are never silent, nor with a controller file, since classes may take joint inputs that it does not
+/// list.
 bool counts_leaving(const Ground& ground, const DelayLayers& layers) {
   return !layers.truncated && !ground.listed && has_safe_side(ground.spec);
 }
@@ -70,7 +71,7 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
       work.team);
 }
 
-/// |Z_0 \ Z_D|, where a layer that is not known counts as empty, but for a goal that ends the task.
+/// |Z_0 \ Z_D|; a layer beyond `max_delay` counts as empty, but for the cells of a goal that ends the task.
 std::int64_t cells_bound_to_connect(const Ground& ground, const DelayLayers& layers) {
   const std::int64_t connection_delay = ground.spec.coordination.connection_delay;
   const auto known = static_cast<std::int64_t>(layers.sizes.size());
@@ -78,8 +79,8 @@ std::int64_t cells_bound_to_connect(const Ground& ground, const DelayLayers& lay
   return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
 }
 
-/// Largest finite delay times period, of the cells in which the task goes on; null if one is unbounded or
-/// there are none.
+/// The largest delay times the period, over the cells in which the task goes on; null if a delay is unbounded
+/// or there are no such cells.
 Json longest_delay(const Ground& ground, const DelayLayers& layers) {
   const std::int64_t fixed_point = layers.truncated ? ground.over_cells : layers.sizes.back();
   if (fixed_point != ground.over_cells || layers.sizes.front() == ground.over_cells) return {};
@@ -94,7 +95,7 @@ Json stored_json(const StoredPartition& partition) {
           {"truncated", partition.truncated()}};
 }
 
-/// Places at which the cells of the longest finite delay lie, if these are all sides of the domain.
+/// The sides of the domain at which the cells of the longest finite delay lie, if all lie at one.
 Json best_at_json(const Ground& ground, const DelayLayers& layers) {
   Json json = Json::array();
   for (const GridSide& side : sides_of_best_cells(ground, layers)) {
@@ -129,10 +130,10 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
                input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
                              answers.ground.spec.coordination.partitions[p]),
                team),
-      mirror(answers.ground.mirror(input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
-                                                 answers.ground.spec.coordination.partitions[p]))),
+      symmetry(answers.ground.symmetry(input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
+                                                     answers.ground.spec.coordination.partitions[p]))),
       projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, team,
-                  answers.ground.equal(mirror ? &*mirror : nullptr)) {}
+                  answers.ground.equal(symmetry ? &*symmetry : nullptr)) {}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
@@ -193,7 +194,7 @@ void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const st
     info["partitions"][p][member] = stored_json(partitions[p]);
 }
 
-/// Only the levels of all partitions are kept; of all else there is that of one at a time.
+/// Levels of all partitions are kept; projections are those of one partition at a time.
 MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
   const ProblemSpec& spec = sizes.model().spec();
   const auto partitions = static_cast<double>(spec.coordination.partitions.size());
@@ -209,10 +210,10 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
     for (const InputClass& own : classes)
       need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
   }
-  need.work += sizes.wave(threads) + sizes.recent_levels();
+  need.work += sizes.wave(threads) + sizes.level_delta();
   if (has_safe_side(spec)) need.work += sizes.levels() + 2 * sizes.set();
   if (spec.output.actions) need.written += actions + sizes.readers(threads);
-  // Processes sort equal parts of the cells, of which each is told its layer.
+  // Each process sorts an equal share of the cells, after it was sent their layers.
   if (spec.output.layers) need.written += std::min(sizes.cells(), 2 * sizes.lanes()) * sizeof(std::uint32_t);
   return need;
 }

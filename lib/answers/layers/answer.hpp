@@ -19,8 +19,8 @@ struct PartitionLayers {
   std::vector<DelayLayers> partitions;  ///< in the order of the spec
 };
 
-/// What the classes of a partition can do, each by itself. Kept only as long as its layers are looked for:
-/// with many partitions it would take more memory than all else.
+/// The actions of the classes of a partition, each by itself. Kept only while its layers are found: for many
+/// partitions together they would take more memory than everything else.
 struct PartitionActions {
   /// @pre unchecked: K is known. @param p number of the partition
   PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team);
@@ -28,21 +28,23 @@ struct PartitionActions {
   PartitionActions& operator=(const PartitionActions&) = delete;
 
   ActionGrouping grouping;
-  std::optional<RowMirror> mirror;
-  Projections projections;  ///< of the first rows alone, if there is a mirror
+  std::optional<RowSymmetry> symmetry;
+  Projections projections;  ///< of canonical rows alone, if there is a symmetry
 };
 
 /// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.
 [[nodiscard]] std::vector<Stage> layers_stages(const ProblemSpec& spec);
 [[nodiscard]] MemoryNeed layers_memory(const EngineSizes& sizes, int threads);
 void summarise_layers(const Answers& answers, Json& summary, Json& work);
-/// Fails where an F is no layer, or a list of layers has another length.
+/// Fails if an F is no layer, or if a list of layers has another length.
 void examine_layers(const ProblemSpec& spec, const FieldSource& source);
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
-/// What there is to say of layers beside their partition: F, sizes, what never changes, whether they are cut.
+/// The members of layers in the summary, beside their partition: F, sizes, unbounded cells, whether
+/// `max_delay` cut them.
 [[nodiscard]] Json layers_json(const DelayLayers& layers);
-/// The same of layers that a file holds, of all partitions. @param prefix of their paths, see add_sizes()
+/// Adds the same members of the layers in a file, for all partitions. @param prefix of their paths, see
+/// add_sizes()
 /// @param member of each partition in `info` @throws ResultsError if an F is no layer
 void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
                     const char* member, Json& info);

@@ -7,16 +7,16 @@
 namespace coordreq {
 namespace {
 
-/// Whether a larger domain would go on beyond a side.
+/// Whether a side is a choice of the spec, so that a larger domain could go on beyond it.
 bool is_arbitrary(const GridDimension& dimension, bool above) {
   const OutsideTraits& rule = traits(above ? dimension.above : dimension.below);
   return !dimension.discrete && dimension.count > 1 && (rule.blocks || rule.resets);
 }
 
-/// What the best cells in some rows touch.
+/// The sides that the best cells in some rows touch.
 struct Touched {
-  std::vector<std::int64_t> sides;  ///< [2 * dimension + above] so many of them lie there
-  std::int64_t inside = 0;          ///< so many at no side
+  std::vector<std::int64_t> sides;  ///< [2 * dimension + above] number of cells at the side
+  std::int64_t inside = 0;          ///< number of cells at no side
 
   void add(const UniformGrid& grid, std::int64_t cell) {
     bool is_inside = true;
@@ -42,7 +42,7 @@ std::vector<GridSide> sides_of_best_cells(const Ground& ground, const DelayLayer
   layers.layers_of.visit([&](const auto& levels) {
     const std::int64_t begin = ground.share ? ground.share->own().begin : 0;
     const std::int64_t end = ground.share ? ground.share->own().end : levels.rows();
-    // One process may stop at the first of them that is inside.
+    // A single process may stop at the first best cell that is inside.
     for (std::int64_t r = begin; r < end && (ground.share || touched.inside == 0); ++r) {
       const auto* const row = levels.row(r);
       levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {

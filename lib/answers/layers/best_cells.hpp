@@ -13,10 +13,10 @@ struct GridSide {
   bool above = false;
 };
 
-/// The sides of the domain at which cells of the longest finite delay lie, if all of them lie at one: then a
-/// larger domain may hold cells that tolerate more. Sides that are a limit of the system itself do not count
-/// (`stop`), nor those where what leaves is safe, nor those of discrete states. Nothing if there is no finite
-/// delay above 0, or none is known to be the longest. Together.
+/// The sides of the domain at which cells of the longest finite delay lie, if all these cells lie at a side:
+/// then a larger domain may hold cells that tolerate more. Sides do not count that are limits of the system
+/// itself (`stop`), that are `safe`, or that belong to discrete states. Empty if there is no finite delay
+/// above 0, or if none is known to be the longest. Together.
 [[nodiscard]] std::vector<GridSide> sides_of_best_cells(const Ground& ground, const DelayLayers& layers);
 
 }  // namespace coordreq

@@ -20,7 +20,7 @@ std::int32_t trigger_by_definition(std::int32_t delay, std::int64_t connection_d
   return delay < connection_delay ? kMustBeConnected : static_cast<std::int32_t>(delay - connection_delay);
 }
 
-/// What all threads share about one partition.
+/// Findings of one partition that all threads share.
 struct PartitionTallies {
   PartitionTallies(const CheckGround& ground, std::size_t p)
       : claims(*ground.spec, *ground.claims, p),
@@ -63,7 +63,8 @@ class PartitionChecker {
     }
   }
 
-  /// Where posts are only enclosures, the actions of the file are the ones to go on with.
+  /// Where posts may be others than those of the analysis, the actions of the file are taken for the choices
+  /// of agents.
   void check_actions(const CheckedCell& cell) {
     tallies_.actions.add_checked(1);
     BitDifference found;
@@ -115,7 +116,7 @@ class PartitionChecker {
     tallies_.delay.add_checked(1);
     const std::int32_t claimed = claims_.delay[cell.at()];
     if (claimed == expected) return;
-    const bool other_choices = claims_.actions.empty();  // perhaps: the file does not say which there are
+    const bool other_choices = claims_.actions.empty();  // choices may differ: the file does not have them
     if (ground_.sound_only() && expected >= 0 && claimed >= 0 && (claimed < expected || other_choices)) {
       tallies_.delay.add_unproven();
     } else {
@@ -135,7 +136,7 @@ class PartitionChecker {
   const PartitionClaims& claims_;
   PartitionTallies& tallies_;
   const std::vector<InputClass>& classes_;
-  std::vector<std::vector<std::uint8_t>> projection_;  ///< [class][action], of the cell at work
+  std::vector<std::vector<std::uint8_t>> projection_;  ///< [class][action] of the cell being checked
 };
 
 class DelayChecker : public CellChecker {
@@ -182,7 +183,7 @@ class LayersCheck : public AnswerCheck {
 
  private:
   const CheckGround& ground_;
-  std::deque<PartitionTallies> tallies_;  ///< by partition; they cannot be moved
+  std::deque<PartitionTallies> tallies_;  ///< [partition]; tallies cannot be moved
 };
 
 }  // namespace

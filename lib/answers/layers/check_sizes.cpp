@@ -11,7 +11,7 @@
 namespace coordreq {
 namespace {
 
-/// The layers as the delays of the cells say.
+/// Layers as they follow from the delays of the cells.
 struct Layers {
   std::vector<std::int64_t> sizes;  ///< |Z_0|, ..., |Z_F| or, if truncated, up to max_delay
   std::int64_t fixed_point_index = -1;

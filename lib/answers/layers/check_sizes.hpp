@@ -10,18 +10,18 @@
 
 namespace coordreq {
 
-/// Which layers of a partition are meant: where the file has them, and what they are called.
+/// A kind of layers: its paths in the file, and its names.
 struct LayersMeant {
   std::string delay = "/delay", trigger = "/trigger", prefix = "/";
   std::string words = "layers";
   char letter = 'Z';
 };
-/// Those of agents who see only themselves, with countdowns for delays.
+/// The layers of agents who see only themselves, with countdowns for delays.
 [[nodiscard]] LayersMeant blind_layers_meant();
-/// Those of agents who do what they are told, with silence for delays.
+/// The layers of agents who act by rules, with silence for delays.
 [[nodiscard]] LayersMeant silence_layers_meant();
 
-/// What a file says about one partition. @pre unchecked: the claims outlive it.
+/// The claims of a file about one partition. @pre unchecked: the claims outlive it.
 struct PartitionClaims {
   PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p, LayersMeant layers = {});
 
@@ -31,7 +31,7 @@ struct PartitionClaims {
   const std::vector<std::int32_t>& trigger;
   std::int64_t fixed_point_index;         ///< F; negative: unknown because max_delay stopped the iteration
   std::vector<std::int64_t> layer_sizes;  ///< the whole row of the file
-  std::vector<const std::vector<std::uint8_t>*> actions;  ///< [class]; none if they are not stored
+  std::vector<const std::vector<std::uint8_t>*> actions;  ///< [class]; empty if actions are not stored
 };
 
 /// Compares F, whether max_delay stopped the iteration, layer sizes and layer lists of a partition with the

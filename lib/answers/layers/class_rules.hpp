@@ -11,26 +11,26 @@
 
 namespace coordreq {
 
-/// What a class does by rules of its agents (contract, section 9), each over inputs of its own.
+/// The rules of the agents of a class (contract, section 9), each over inputs of its own.
 struct ClassRules {
-  /// Some agent has no rule: what the class does is in the projection of C(x), too.
+  /// Some agent has no rule: the actions of the class are in the projection of C(x), too.
   bool asks_controller = false;
-  /// Those that do not permit everything: places among ActionGrouping::sources(), and whose each is.
+  /// Rules that do not permit all actions: indices into ActionGrouping::sources(), and the agent of each.
   std::vector<std::size_t> sources;
   std::vector<std::size_t> agents;
-  std::size_t agent = 0;  ///< who is named where the class has no action and no rule alone is why
+  std::size_t agent = 0;  ///< named where the class has no action, though no single rule forbids all
 };
 
-/// What the classes of a partition do by rules instead of by C.
+/// The rules by which the classes of a partition act instead of by C.
 struct SilentRules {
-  const CellSet* cells = nullptr;        ///< where that is asked for
-  std::vector<ClassRules> classes;       ///< of the grouping
-  std::vector<const PairTable*> tables;  ///< [source]; null: it is no rule
-  /// [agent] In how many of the cells of own rows its class has no action, if no class before it is without
-  /// one: counted where it is not null.
+  const CellSet* cells = nullptr;        ///< the cells in which the rules are asked for
+  std::vector<ClassRules> classes;       ///< [class] of the grouping
+  std::vector<const PairTable*> tables;  ///< [source]; null: the source is no rule
+  /// [agent] Number of cells in own rows in which its class is the first without an action; null: not
+  /// counted.
   std::vector<std::atomic<std::int64_t>>* lacking = nullptr;
 
-  /// In no class there is anything to be known of single cells.
+  /// Whether every class may take all of its actions in all cells.
   [[nodiscard]] bool permit_all() const {
     for (const ClassRules& own : classes) {
       if (own.asks_controller || !own.sources.empty()) return false;

@@ -56,7 +56,7 @@ DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant
 void follow_from_levels(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& result) {
   result.sizes = layer_sizes(result.layers_of.histogram(team));
   const auto steps = static_cast<std::int64_t>(result.sizes.size()) - 1;
-  // A fixed point is known as such only by one more step.
+  // It takes one more step to know that a layer is a fixed point.
   result.truncated = max_delay && steps >= *max_delay && result.sizes.back() != 0;
   result.fixed_point_index = result.truncated ? -1 : static_cast<std::int32_t>(steps);
 }

@@ -21,19 +21,19 @@ struct DelayLayers {
   static constexpr std::int32_t kOutsideInvariant = -1;
   static constexpr std::int32_t kUnbounded = INT32_MAX;
 
-  /// [cells]: 0 outside K, else delay(x) + 1, the number of layers that hold x; LevelMap::kTop where it is
-  /// not bounded, or not known to be.
+  /// [cells]: 0 outside K, else delay(x) + 1, the number of layers that hold x; LevelMap::kTop where the
+  /// delay is not bounded, or not known to be.
   LevelMap layers_of;
   std::vector<std::int64_t> sizes;     ///< |Z_0|, |Z_1|, ..., |Z_F| (or as far as `max_delay` went)
   std::int32_t fixed_point_index = 0;  ///< F; -1 if truncated
   bool truncated =
       false;  ///< `max_delay` came first: the last layer's delays are lower bounds, none is unbounded
   WaveCounts counts;
-  /// Cells of Z_F from which a run leaves through a `safe` side, see count_leaving_cells(); nothing where
-  /// that is not asked.
+  /// Cells of Z_F from which a run leaves through a `safe` side, see count_leaving_cells(); nothing if they
+  /// are not counted.
   std::optional<std::int64_t> leaving = {};
 
-  /// What LevelMap::kTop means as a delay.
+  /// The delay that LevelMap::kTop stands for.
   [[nodiscard]] std::int32_t top_delay() const {
     return truncated ? static_cast<std::int32_t>(sizes.size() - 1) : kUnbounded;
   }
@@ -43,12 +43,11 @@ struct DelayLayers {
 /// F is that of Eq. (12).
 /// An empty layer is a fixed point also where `max_delay` stops at it.
 ///
-/// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is within this
-/// one's, a smaller set of choices, so that the worst of them is no worse. The work begins at the least of
-/// those. Rows of K where C(x) has every action need not be looked at before a neighbour changes: there all
-/// partitions take the same minimum M(level)(x) over all actions, and a minimum of the bounds L' goes through
-/// M to each of them, M(min L') = min M(L') = min L'. Without bounds M is of the levels of K alone, and none
-/// of its cells is lost by any action.
+/// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is a subset of this
+/// one's, so that the worst choice is no worse. The wave begins at the least of their levels. Rows of K where
+/// C(x) has every action are settled: there all partitions take the same minimum M(level)(x) over all
+/// actions, and M commutes with the minimum of the bounds L', M(min L') = min M(L') = min L'. Without bounds
+/// M is over the levels of K alone, and no action leads out of K.
 /// @param projections of C where the task goes on
 /// @param over G of a goal that ends it, which is in every layer; null: there is none
 /// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
@@ -58,14 +57,14 @@ struct DelayLayers {
                                             std::optional<std::int64_t> max_delay, const WaveWatch& watch,
                                             ThreadTeam& team, const CellSet* over = nullptr);
 
-/// The same for the partition in which all agents are together, at no cost: IND_C = C, and C keeps every cell
-/// of K in K, so Z_k = K for every k.
+/// The layers of the partition in which all agents are together, without a wave: IND_C = C, and C keeps every
+/// cell of K in K, so Z_k = K for every k.
 /// @param interned whether equal rows are held once
 [[nodiscard]] DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                              std::optional<std::int64_t> max_delay, ThreadTeam& team,
                                              bool interned = false);
 
-/// Fills in all that follows from the levels.
+/// Fills in the members that follow from the levels.
 void follow_from_levels(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& layers);
 
 }  // namespace coordreq

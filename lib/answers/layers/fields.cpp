@@ -9,7 +9,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/latest.hpp"
+#include "answers/last_value_cache.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/trigger_table.hpp"
@@ -19,7 +19,7 @@
 namespace coordreq {
 namespace {
 
-/// The most layers that there can be: each but the last loses something.
+/// The most layers that are possible: each but the last loses a cell.
 std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t losses) {
   const std::optional<std::int64_t>& most = spec.coordination.max_delay;
   return 1 + (most ? std::min(losses, static_cast<std::uint64_t>(*most)) : losses);
@@ -98,24 +98,24 @@ void fill_steps(const Answers& answers, const std::vector<DelayLayers>& partitio
 }
 
 void fill_lists(const Answers& answers, const PartitionSpec& partition, const DelayLayers& layers,
-                const std::shared_ptr<LatestCells>& latest, FieldValues& values) {
+                const std::shared_ptr<CellsCache>& cache, FieldValues& values) {
   const std::string group = paths::layers(partition);
   std::vector<std::uint64_t> start = layer_starts(layers);
   values.lengths[group + "/bound"] = start.size();
   values.lengths[group + "/position"] = start.back();
   values.entries[group + "/start"].array = owned_array(ElementType::uint64, std::move(start));
-  values.entries[group + "/cell"].array = layer_cells(layers, *answers.ground.order, latest);
+  values.entries[group + "/cell"].array = layer_cells(layers, *answers.ground.order, cache);
 }
 
-using LatestGrouping = Latest<std::size_t, ActionGrouping>;
+using GroupingCache = LastValueCache<std::size_t, ActionGrouping>;
 
 /// The admissible actions of a class of partition p.
 ResultArray action_array(const Answers& answers, std::size_t p, std::size_t c,
-                         const std::shared_ptr<LatestGrouping>& latest) {
-  return {ElementType::uint8, [&answers, p, c, latest](std::uint64_t begin, std::uint64_t count, void* out) {
+                         const std::shared_ptr<GroupingCache>& cache) {
+  return {ElementType::uint8, [&answers, p, c, cache](std::uint64_t begin, std::uint64_t count, void* out) {
             const Ground& ground = answers.ground;
-            const auto grouping = latest->get(p, [&] {
-              ThreadTeam alone(1);  // the others wait for it, in a loop of theirs
+            const auto grouping = cache->get(p, [&] {
+              ThreadTeam alone(1);  // the other threads wait for it, in a loop of their own
               const PartitionSpec& partition = ground.spec.coordination.partitions[p];
               return ActionGrouping(*ground.engine,
                                     input_classes(ground.spec, ground.abstraction->inputs, partition), alone);
@@ -172,7 +172,7 @@ void add_sizes(Fields& fields, const std::string& prefix, char layer, std::uint6
 ElementType delay_type(const std::vector<DelayLayers>& partitions) {
   std::int64_t greatest = 0;
   for (const DelayLayers& layers : partitions) {
-    // In Z_F and not in Z_{F+1} is nobody: the greatest finite delay is F - 1, or what stopped the iteration.
+    // Z_F = Z_{F+1}: the greatest finite delay is F - 1, or the `max_delay` that stopped the iteration.
     const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
     greatest = std::max(greatest, layers.truncated ? last : last - 1);
   }
@@ -218,15 +218,15 @@ Fields layer_fields(const ProblemSpec& spec) {
   return fields;
 }
 
-/// What is large of a partition is there only while it is written: with many of them, all together would take
-/// more memory than all else.
+/// Large data of a partition are made only while they are written: for many partitions together they would
+/// take more memory than everything else.
 void fill_layer_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
   fill_steps(answers, partitions, values);
   fill_sizes(pointers_to(partitions), "/", values);
   const ProblemSpec& spec = answers.ground.spec;
-  const auto cells = std::make_shared<LatestCells>();
-  const auto grouping = std::make_shared<LatestGrouping>();
+  const auto cells = std::make_shared<CellsCache>();
+  const auto grouping = std::make_shared<GroupingCache>();
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const PartitionSpec& partition = spec.coordination.partitions[p];
     if (spec.output.layers) fill_lists(answers, partition, partitions[p], cells, values);

@@ -25,7 +25,7 @@ inline constexpr char kTrigger[] = "/trigger";
 /// admissible actions of each class.
 [[nodiscard]] Fields layer_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 /// The fields `PREFIXlayer`, `PREFIXlayer_size`, `PREFIXfixed_point_index`: how many cells layers have,

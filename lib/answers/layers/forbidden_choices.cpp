@@ -54,7 +54,7 @@ bool ForbiddenChoices::find(const RowPlace& place, const RowGroups& groups,
   return any_set(found);
 }
 
-/// Where any action of a group that `allow` does not tell apart is in the projection.
+/// Joins the masks of the actions that `allow` does not tell apart.
 void ForbiddenChoices::join_groups(std::size_t c, const ActionGroups& groups, const std::vector<Word>& masks,
                                    Workspace& work) const {
   const ActionGroups& own = *work.groups.classes[c];
@@ -70,8 +70,8 @@ void ForbiddenChoices::join_groups(std::size_t c, const ActionGroups& groups, co
   }
 }
 
-/// Adds the forbidden choices of class c and those after it, with what the others have chosen.
-/// @param position in the table, of that
+/// Adds the forbidden choices of class c and the classes after it, given the choices of the classes before.
+/// @param position in the table, of the choices before
 void ForbiddenChoices::add(std::size_t c, std::int64_t position, Workspace& work,
                            std::vector<Word>& found) const {
   const std::vector<Word>& open = work.open[c];

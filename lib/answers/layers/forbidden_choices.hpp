@@ -8,38 +8,40 @@
 
 namespace coordreq {
 
-/// `allow` names inputs of several agents: only then can it forbid what each of them may do by itself.
+/// Whether `allow` names inputs of several agents: only then can it forbid joint inputs whose actions it
+/// permits to each agent.
 [[nodiscard]] bool allow_joins_agents(const ProblemSpec& spec);
 
-/// Agents who act by themselves may do together what `allow` forbids.
+/// Whether agents who act by themselves may do together what `allow` forbids.
 [[nodiscard]] bool may_forbid_choices(const ProblemSpec& spec);
 
-/// {x : the product of what the classes choose from at x holds a joint input that `allow` forbids}. Such a
-/// joint input counts as blocked (contract, "Layers"): where classes act by themselves, each may take its
-/// part of something permitted, and all together what is not. What a controller file does not list is not
-/// forbidden.
+/// {x : the product of the sets from which the classes choose at x holds a joint input that `allow` forbids}.
+/// Such a joint input counts as blocked (contract, "Layers"): where classes act by themselves, each may take
+/// its action of some permitted joint input, and all together a forbidden one. Joint inputs that a controller
+/// file does not list are not forbidden.
 ///
-/// Joint inputs of single controllers never are, and products of their projections only where `allow` joins
-/// inputs of several classes: so this is all that is to be asked besides posts.
+/// Joint inputs in C(x) are never forbidden, and products of projections only where `allow` joins inputs of
+/// several classes: so beside posts only these cells need to be found.
 class ForbiddenChoices {
  public:
   /// @param grouping of a partition; outlives this object, as its engine does
   /// @param by_rules classes choose by rules of their own, which may permit what `allow` does not
   ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& team, bool by_rules = false);
 
-  /// What one thread works with.
+  /// The buffers of one thread.
   struct Workspace {
     RowGroups groups;
-    std::vector<std::vector<Word>> masks;  ///< [class] a row a group of those told apart by `allow`
-    std::vector<std::vector<Word>> open;  ///< [class] where what the classes up to it have chosen is possible
+    std::vector<std::vector<Word>> masks;  ///< [class] one row for each group that `allow` tells apart
+    std::vector<std::vector<Word>>
+        open;  ///< [class] the cells where the choices of the classes up to it are possible
     std::vector<std::uint8_t> joined;
   };
 
-  /// Finds the cells of a row in lanes.
+  /// Finds the cells of a row.
   /// @param groups of the partition's grouping
   /// @param masks [class][group * words + word]: the cells in whose projection a group is
-  /// @param found a row; all zeros where there are none
-  /// @returns whether there are any
+  /// @param found a row of bits; all 0 if there are no such cells
+  /// @returns whether there are such cells
   bool find(const RowPlace& place, const RowGroups& groups, const std::vector<std::vector<Word>>& masks,
             Workspace& work, std::vector<Word>& found) const;
 
@@ -49,7 +51,7 @@ class ForbiddenChoices {
   void add(std::size_t c, std::int64_t position, Workspace& work, std::vector<Word>& found) const;
 
   const PairTable* permitted_ = nullptr;  ///< null: no choice can be forbidden
-  std::vector<ActionGrouping> pairs_;     ///< one, of the same classes by `permitted_` alone; or none
+  std::vector<ActionGrouping> pairs_;  ///< one grouping of the same classes by `permitted_` alone; or empty
 };
 
 }  // namespace coordreq

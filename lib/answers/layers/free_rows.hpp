@@ -9,7 +9,9 @@
 
 namespace coordreq {
 
-/// Finds the rows in which every joint input is admissible wherever K is, by what all posts have in common.
+/// Finds the rows in which every joint input is admissible in all cells of K, by the box around all posts of
+/// a row: one read instead of projections. The switch is FastPaths::free_rows.
+///
 /// One object a thread.
 template <class Level>
 class FreeRows {
@@ -18,7 +20,7 @@ class FreeRows {
   FreeRows(const Controller& controller, const RowHull& hull, PostReader<Level>& posts)
       : controller_(controller), hull_(hull), posts_(posts), lanes_(posts.lanes(), 0) {}
 
-  /// False may mean that it is not easily seen.
+  /// False also where the box does not show it.
   [[nodiscard]] bool is_free(const RowPlace& place) {
     if (controller_.engine->allow() != nullptr) return false;
     if (controller_.synthesis == Synthesis::given) return true;

@@ -7,16 +7,16 @@
 namespace coordreq {
 namespace {
 
-/// Below so many choices a bound of them together saves too little.
+/// For fewer choices a common bound saves too little.
 constexpr std::size_t kFewChoices = 4;
 
-/// The class whose choices are tried one after the other: where rows are added up one that moves the cells of
-/// a row alike, so that there are bounds of several choices.
+/// The class whose choices are tried one after the other: where rows are added up a class that moves the
+/// cells of a row alike, so that its choices have common bounds.
 std::size_t choose_fastest(const ActionGrouping& grouping) {
   const auto is_steady = [&](const InputClass& inputs) {
     return std::ranges::none_of(grouping.engine().posts().slices, [&](const RowSlices& slices) {
       return slices.sums && std::ranges::any_of(inputs.inputs(), [&](std::int32_t input) {
-               return slices.sums->tells_runs_apart(input);
+               return slices.sums->tells_profiles_apart(input);
              });
     });
   };
@@ -47,7 +47,7 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
   const bool is_by_posts = projections_.forbidden(place.row).empty();
   if (is_by_posts && work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n))
     return false;
-  // No level rises: what cannot lower a cell is not looked at.
+  // No level rises: posts that cannot lower a cell are not read.
   constexpr Level kTop = PostReader<Level>::kTop;
   std::transform(old, old + posts.lanes(), next, [](Level level) {
     return level == 0 || level == kTop ? level : static_cast<Level>(level - 1);
@@ -89,7 +89,7 @@ void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader
                            work.row);
   work.is_moved = projections_.find_shift(place.row, work.shift);
   work.box.resize(engine.grid());
-  work.box.covers = true;  // each is the post of a choice
+  work.box.covers = true;  // each box is the post of a choice
   work.labels = nullptr;
   for (std::size_t p = 0; p < work.row.parts.size(); ++p) {
     if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)
@@ -113,7 +113,7 @@ void IndependentActions<Level>::enter_page(const std::uint8_t* labels, std::size
   }
 }
 
-/// Chooses a box for class c and those after it, in all ways.
+/// Goes through all choices of a box for class c and the classes after it.
 template <class Level>
 void IndependentActions<Level>::lower_by_class(const IndependentPosts::Part& part, std::size_t c,
                                                PostReader<Level>& posts, Level* next, Workspace& work) const {
@@ -173,7 +173,7 @@ void IndependentActions<Level>::lower_by_tuples(const RowPlace& place, const Row
   } while (work.tuple.next_of_others());
 }
 
-/// Finds where what the other classes have chosen is reasonable.
+/// Finds the cells where the choice of the other classes is reasonable.
 template <class Level>
 bool IndependentActions<Level>::is_some_reasonable(const Row& row, Workspace& work) const {
   const ConstRow invariant = invariant_.row(row.number);
@@ -189,8 +189,8 @@ bool IndependentActions<Level>::is_some_reasonable(const Row& row, Workspace& wo
   return true;
 }
 
-/// Lowers some lanes by the candidates [begin, end) of the fastest class: where a bound of all does not say
-/// that they lower nothing, by each half of them.
+/// Lowers some lanes by the candidates [begin, end) of the fastest class: if their bound does not show that
+/// they lower nothing, by each half of them.
 template <class Level>
 void IndependentActions<Level>::lower_by_several(const Row& row, std::size_t begin, std::size_t end,
                                                  LaneRange lanes, Workspace& work) const {
@@ -230,8 +230,8 @@ void IndependentActions<Level>::lower_by_one(const Row& row, std::size_t positio
                       work.lanes.data() + lanes.begin, next, lanes.size());
 }
 
-/// The groups of class c that can make a difference: reasonable somewhere, and not with a post inside that
-/// of another group that is reasonable wherever they are.
+/// Finds the groups of class c that can make a difference: reasonable in some cell, and without another group
+/// whose post holds theirs and that is reasonable in all of their cells.
 template <class Level>
 void IndependentActions<Level>::find_worst(std::int64_t row, const RowGroups& groups, std::size_t c,
                                            std::vector<std::uint32_t>& result) const {

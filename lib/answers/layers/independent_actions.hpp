@@ -8,8 +8,8 @@
 
 namespace coordreq {
 
-/// level(x) = 1 + min over u in IND_C(x) of min over f(x,u), which is empty where u is forbidden: the
-/// greatest level where IND_C(x) is empty, as it is nowhere in K. That is the coordination-free predecessor
+/// level(x) = 1 + min over u in IND_C(x) of min over f(x,u), f(x,u) being empty where u is forbidden; the
+/// greatest level if IND_C(x) is empty, which does not occur in K. This is the coordination-free predecessor
 /// IPRE of the paper, Eq. (5), for all layers Z_0, Z_1, ... at once: x is in IPRE(Z_k) if its level is above
 /// k + 1.
 template <class Level>
@@ -22,7 +22,7 @@ class IndependentActions final : public RowOperator<Level> {
   bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override;
   [[nodiscard]] bool is_minimum() const override { return true; }
-  /// The least level of all posts under IND_C, for every cell of the row.
+  /// Finds the least level of all posts under IND_C, for every cell of the row.
   void find_minimum(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker);
 
  private:
@@ -33,16 +33,17 @@ class IndependentActions final : public RowOperator<Level> {
     TupleWalk tuple;
     RowBox box;
     IndependentPosts::Row row;
-    bool is_moved = false;  ///< what was packed lies somewhere else, by
+    bool is_moved = false;  ///< packed boxes are moved, by the shift below
     std::vector<std::int32_t> shift;
-    const Level* labels = nullptr;  ///< of the page at hand; null: there is one part, all of K
+    const Level* labels = nullptr;  ///< of the page being read; null: there is one part, all of K
     Level label = 0;
     std::vector<Word> reasonable;
-    std::vector<Word> reasonable_for_others;  ///< the choice of all classes but the fastest is
-    std::vector<Level> lanes;                 ///< the same
+    std::vector<Word>
+        reasonable_for_others;  ///< cells where the choice of all classes but the fastest is reasonable
+    std::vector<Level> lanes;   ///< the same as levels
     std::vector<Level> lanes_of_others;
   };
-  /// A row that is lowered.
+  /// The row whose levels are lowered.
   struct Row {
     std::int64_t number;
     bool is_full;  ///< every action is reasonable in all cells that count

@@ -4,8 +4,8 @@
 
 namespace coordreq {
 
-/// The groups that can make a difference: reasonable somewhere, with a post inside the domain, and not inside
-/// that of another group that is reasonable wherever they are.
+/// Finds the groups that can make a difference: reasonable in some cell, with a post inside the domain, and
+/// without another group whose post holds theirs and that is reasonable in all of their cells.
 void IndependentPosts::find_worst(const RowBoxes& boxes, const ActionGroups& own, std::size_t c,
                                   const std::vector<Word>& masks) {
   worst_.clear();
@@ -42,7 +42,7 @@ void IndependentPosts::find_parts(const std::vector<Word>& masks, ConstRow invar
   }
 }
 
-/// Takes the cells of `mask` out of a part and makes them one of their own, with the same groups.
+/// Moves the cells of `mask` from a part to a new one with the same groups.
 void IndependentPosts::split_part(std::size_t p, ConstRow mask) {
   const std::size_t groups = worst_.size();
   part_masks_.resize((parts_ + 1) * words_);
@@ -57,7 +57,7 @@ void IndependentPosts::split_part(std::size_t p, ConstRow mask) {
   ++parts_;
 }
 
-/// What the groups of each part fill together; parts in which that is the same are told apart no more.
+/// Finds the boxes that the groups of each part fill together; parts with equal boxes become one.
 void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& own) {
   own.lists.clear();
   own.masks.clear();
@@ -69,7 +69,7 @@ void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassPar
       const auto ranges = boxes.ranges(c, worst_[k]);
       list_.ranges.insert(list_.ranges.end(), ranges.begin(), ranges.end());
     }
-    if (list_.ranges.empty()) continue;  // all that it may do here leaves for good
+    if (list_.ranges.empty()) continue;  // all of its actions in the part leave for good
     if (joins_boxes_) merge_boxes(list_, longest_);
     const auto known = std::find_if(own.lists.begin(), own.lists.end(),
                                     [&](const BoxList& other) { return other.ranges == list_.ranges; });
@@ -167,7 +167,7 @@ void IndependentPosts::pack(const RowBoxes& boxes, const RowGroups& groups,
   packed.clear();
   classes_.resize(groups.classes.size());
   for (std::size_t c = 0; c < classes_.size(); ++c) {
-    if (boxes.moved(c).empty()) {  // whatever it does makes no difference: one list, for all cells
+    if (boxes.moved(c).empty()) {  // its actions move nothing: one list, for all cells
       classes_[c].lists.assign(1, {.dimensions = 0, .ranges = {}});
       classes_[c].masks.assign(invariant.begin(), invariant.end());
       continue;

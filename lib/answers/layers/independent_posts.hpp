@@ -13,8 +13,8 @@ namespace coordreq {
 
 /// The union of the posts under IND_C for one row, where posts are products: the cells of the row fall into
 /// parts, in each of which the classes have the same choices, and for each part there is a list of boxes for
-/// each class. The posts of a cell are the product of what its classes may do, so is their union, and a box
-/// that several actions fill together is tested once.
+/// each class. The posts of a cell are products of a box for each class, so is their union, and a box that
+/// several actions fill together is tested once (FastPaths::joined_boxes).
 ///
 /// Parts are told apart by one label a cell, in pages: a row of the gridworld has some 44 parts, at steps of
 /// 5 mm up to 136.
@@ -24,8 +24,9 @@ class IndependentPosts {
 
   /// Boxes of one class, one after the other.
   struct Boxes {
-    std::span<const Word> ranges;  ///< packed, for RowBoxes::put(); as many a box as the class moves
-    std::size_t count = 0;         ///< 1 for a class that moves nothing
+    std::span<const Word> ranges;  ///< packed, for RowBoxes::put(); for each box one range for each dimension
+                                   ///< that the class moves
+    std::size_t count = 0;         ///< number of boxes; 1 for a class that moves no dimension
     [[nodiscard]] std::span<const Word> operator[](std::size_t i) const {
       const std::size_t dimensions = ranges.size() / count;
       return ranges.subspan(i * dimensions, dimensions);
@@ -34,17 +35,17 @@ class IndependentPosts {
   struct Part {
     std::int64_t begin = 0;  ///< lanes of its cells are in [begin, end)
     std::int64_t end = 0;
-    std::span<const Word> boxes;  ///< for each class where its list stands in Row::lists
+    std::span<const Word> boxes;  ///< [class] index of its list in Row::lists
   };
-  /// A row as it was packed; views of it.
+  /// Views of a packed row.
   struct Row {
-    std::vector<Part> parts;  ///< that page * kLabelsOfPage + label - 1
+    std::vector<Part> parts;  ///< [page * kLabelsOfPage + label - 1]
     std::vector<Boxes> lists;
     /// [page] label of each lane; whole blocks, as LevelKernels ask. Empty: there is one part, all of K.
     std::vector<const std::uint8_t*> pages;
   };
 
-  /// @param words of a bit row
+  /// @param words of a row of bits
   explicit IndependentPosts(std::size_t words)
       : words_(words), kernels_(&bit_kernels(best_instruction_set())) {}
 
@@ -56,10 +57,10 @@ class IndependentPosts {
                      std::size_t words, Row& row);
 
  private:
-  /// Parts of the row as one class sees it.
+  /// The parts of the row for one class.
   struct ClassParts {
-    std::vector<BoxList> lists;  ///< distinct ones
-    std::vector<Word> masks;     ///< [list * words_] the cells that have it
+    std::vector<BoxList> lists;  ///< different lists
+    std::vector<Word> masks;     ///< [list * words_] the cells that have the list
   };
 
   void find_worst(const RowBoxes& boxes, const ActionGroups& own, std::size_t c,
@@ -86,7 +87,7 @@ class IndependentPosts {
   BoxList list_;
   std::size_t parts_ = 0;
   std::vector<Word> part_masks_;           ///< [part * words_]
-  std::vector<std::uint8_t> part_groups_;  ///< [part * worst groups]: 1 if reasonable there
+  std::vector<std::uint8_t> part_groups_;  ///< [part * worst groups] 1 if the group is reasonable in the part
   std::vector<ClassParts> classes_;
   std::vector<std::int32_t> labels_;  ///< [lane] 1 + number of its joint part, or 0
   struct JointPart {
@@ -98,7 +99,7 @@ class IndependentPosts {
   std::vector<JointPart> joint_;
   std::vector<JointPart> joint_before_;
   std::vector<Word> mask_;             ///< [class * words_] cells of the choices so far
-  std::vector<std::uint32_t> chosen_;  ///< those choices
+  std::vector<std::uint32_t> chosen_;  ///< [class] the choices so far
   std::vector<std::uint32_t> own_labels_;
   std::vector<std::int32_t> numbers_;
 };

@@ -21,7 +21,7 @@ bool is_safe(const GridDimension& dimension, bool above) {
   return traits(above ? dimension.above : dimension.below).is_only_safe();
 }
 
-/// Looks for a joint input of C(x) that leaves. Works for one thread.
+/// Looks for a joint input of C(x) that leaves through a `safe` side. One object a thread.
 class LeavingInput {
  public:
   explicit LeavingInput(const Answers& answers)
@@ -53,7 +53,7 @@ class LeavingInput {
       return false;
     posts_.move_to(x);
     const std::int64_t all = abstraction_.inputs.count();
-    // What left the cell before most often leaves this one.
+    // The joint input that left the last cell most often leaves this one, too.
     for (std::int64_t k = 0; k < all; ++k) {
       const std::int64_t u = (last_ + k) % all;
       if (!leaves(x, u) || !is_admissible(x, u)) continue;
@@ -66,10 +66,11 @@ class LeavingInput {
  private:
   struct Side {
     std::size_t dimension;
-    std::vector<std::int64_t> parts;  ///< of joint inputs, one for each choice of those that it depends on
+    std::vector<std::int64_t>
+        parts;  ///< numbers of joint inputs, one for each choice of the inputs on which the side depends
   };
 
-  /// Some input, in C(x) or not, leads out of it.
+  /// Whether some joint input, in C(x) or not, leads out through the side.
   [[nodiscard]] bool is_near(const Side& side, std::int64_t x) const {
     return std::any_of(side.parts.begin(), side.parts.end(),
                        [&](std::int64_t part) { return leaves_by(side.dimension, x, part); });
@@ -108,7 +109,7 @@ class LeavingInput {
   std::int64_t last_ = 0;
 };
 
-/// Takes the cells from where some joint input leaves out of Z_F, in the rows owned.
+/// Removes the cells from which some joint input leaves, in the rows owned.
 void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) {
   const Ground& ground = answers.ground;
   std::vector<std::unique_ptr<LeavingInput>> inputs;
@@ -131,7 +132,7 @@ void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) 
   });
 }
 
-/// The greatest level for the cells of a set that is known in the rows owned.
+/// The greatest level for the cells of a set, which is known in the rows owned; 0 for others.
 LevelMap first_levels(const RowEngine& engine, const CellSet& cells, bool shared, ThreadTeam& team) {
   auto levels = engine.make_levels<std::uint8_t>(cells, team, shared);
   if (engine.share() != nullptr) {

@@ -8,20 +8,20 @@
 
 namespace coordreq {
 
-/// Some side of the domain is `safe`, what leaves there being the absorbing cell T.
+/// Whether some side of the domain is `safe`, so that states which leave there are in the absorbing cell T.
 [[nodiscard]] bool has_safe_side(const ProblemSpec& spec);
 
 /// |Z_F \ Y|, Y the greatest subset of Z_F in which no joint input of IND_C(x) leads out through a `safe`
-/// side, and all lead into Y. So these are the cells from which some run of silent classes leaves there, and
-/// those that would not be unbounded if that were not safe and the classes chose from the same sets. Cells of
-/// a goal that ends the task are in Y.
+/// side, and all lead into Y. From these cells some run of silent classes leaves through such a side; they
+/// would not be unbounded if the side were not safe and the classes chose from the same sets. Cells of a goal
+/// that ends the task are in Y.
 ///
-/// In Z_F IND_C(x) = C(x): each of its joint inputs leads into Z_F, a part of K, so that it is in C(x). Thus
-/// whether one leaves is asked of single joint inputs, at cells near such sides; the rest is the ordinary
-/// wave. Finite levels of what it finds count steps until a run can have left.
-/// @param projections those of the partition, which has two classes or more
-/// @param layers its, with F; @pre unchecked: no controller file, which makes IND_C(x) larger than C(x)
-/// Cost: at most about a sweep of the layers, where nothing leaves. Together.
+/// In Z_F IND_C(x) = C(x): each of its joint inputs leads into Z_F, a part of K, so that it is in C(x). So
+/// single joint inputs are looked at, at cells near such sides, and the ordinary wave finds Y. Finite levels
+/// of the wave count steps until a run can have left.
+/// @param projections of the partition, which has two classes or more
+/// @param layers of the partition, with F; @pre unchecked: no controller file, which makes IND_C(x) larger
+///   than C(x) Cost: at most about a sweep of the layers, where nothing leaves. Together.
 [[nodiscard]] std::int64_t count_leaving_cells(const Answers& answers, const Projections& projections,
                                                const DelayLayers& layers, const WaveWatch& watch,
                                                ThreadTeam& team);

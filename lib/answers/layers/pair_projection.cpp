@@ -11,7 +11,7 @@ namespace coordreq {
 namespace {
 
 constexpr auto kBits = static_cast<std::size_t>(CellSet::kWordBits);
-/// Rows of K that are kept with what lies beyond their ends.
+/// Number of rows of K that are kept with their margins.
 constexpr std::int64_t kContinued = 512;
 
 }  // namespace
@@ -60,7 +60,7 @@ void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
   for (Candidate& leader : leaders_) {
     is_taken_.assign(row_boxes_.size(), 0);
     for (Candidate& follower : followers_) {
-      // Each tries the smallest boxes of the other.
+      // Each class tries the smallest boxes of the other.
       const bool for_leader = follower.is_minimal && !leader.is_full;
       const bool for_follower = leader.is_minimal && !follower.is_full;
       if (!for_leader && !for_follower) continue;
@@ -126,7 +126,7 @@ void PairProjection::find_beyond() {
   }
 }
 
-/// The row at margins().before, and beyond its ends what a post meets there.
+/// Copies a row to margins().before, and continues it beyond its ends.
 void PairProjection::continue_row(ConstRow row, Word* out) const {
   const auto before = static_cast<std::size_t>(margins_.before);
   for (std::size_t w = 0; w < words_; ++w) {
@@ -142,7 +142,7 @@ void PairProjection::continue_row(ConstRow row, Word* out) const {
   }
 }
 
-/// The groups of a class that may be found at all, and the cells from which they do not leave an unsafe end
+/// Lists the groups of a class that may be found, with the cells from which they do not leave an unsafe end
 /// of the row.
 void PairProjection::list(const RowGroups& groups, std::size_t c, ConstRow invariant,
                           std::vector<Candidate>& candidates) {
@@ -167,7 +167,7 @@ void PairProjection::list(const RowGroups& groups, std::size_t c, ConstRow invar
   candidates.resize(count);
 }
 
-/// What it reads within the unit.
+/// Finds the rows and lanes that a follower reads within the unit.
 void PairProjection::place_follower(Candidate& candidate) {
   const auto ranges = boxes_.ranges(follower_, candidate.group);
   const auto all_but_one = ranges.first(ranges.size() - 1);
@@ -184,9 +184,9 @@ void PairProjection::place_follower(Candidate& candidate) {
   }
 }
 
-/// The lanes that the windows of all dimensions but the fastest lead to.
+/// Finds the lanes to which the windows of all dimensions but the fastest lead.
 void PairProjection::list_lanes(std::span<const IndexRange> windows) {
-  // Lanes are counted such that the first of them is 0; erode() adds what the fastest window begins with.
+  // Lanes are counted so that the first of them is 0; erode() adds the first offset of the fastest window.
   lanes_.assign(1, margins_.before - shape_.dimensions.back().margins.before);
   for (std::size_t k = 0; k < windows.size(); ++k) {
     const IndexRange window = windows[k];
@@ -199,7 +199,7 @@ void PairProjection::list_lanes(std::span<const IndexRange> windows) {
   }
 }
 
-/// The rows of a box, and in each those lanes.
+/// Finds the rows of a box, with these lanes in each.
 void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Place>& places) {
   const std::size_t windows = engine_.along() - 1;
   list_lanes(box.last(windows));
@@ -208,7 +208,7 @@ void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Pl
   });
 }
 
-/// found_ = the cells of `invariant` from which the box of both lies in K.
+/// found_ = the cells of `invariant` from which the box of leader and follower lies in K.
 void PairProjection::erode(const Candidate& leader, const Candidate& follower, ConstRow invariant) {
   Word* const rows = taken_.data() + follower.rows * taken_words_;
   if (is_taken_[follower.rows] == 0 && leading_ > 0)
@@ -222,7 +222,7 @@ void PairProjection::erode(const Candidate& leader, const Candidate& follower, C
   kernels_->and_shifted(rows, first, last - first + 1, found_.data(), words_);
 }
 
-/// The AND of what stands at some places of a plane, as far as the windows along the fastest dimension reach.
+/// The AND of the bits from some places of a plane on, as far as windows along the fastest dimension reach.
 void PairProjection::take(const Plane& plane, const std::vector<Place>& list, Word* rows) const {
   std::fill_n(rows, taken_words_, ~Word{0});
   for (const Place& place : list) {
@@ -231,7 +231,7 @@ void PairProjection::take(const Plane& plane, const std::vector<Place>& list, Wo
   }
 }
 
-/// The same of the rows of K in a box of both.
+/// The same for the rows of K in the box of leader and follower.
 void PairProjection::take(const Candidate& leader, const Candidate& follower, Word* rows) {
   boxes_.put(leader_, boxes_.ranges(leader_, leader.group), box_);
   boxes_.put(follower_, boxes_.ranges(follower_, follower.group), box_);

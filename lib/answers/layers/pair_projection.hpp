@@ -12,11 +12,13 @@ namespace coordreq {
 /// The projections of C onto two classes, each with states of its own: two vehicles. The *follower* moves the
 /// last dimension, the *leader* is the other one.
 ///
-/// In the projection of one class is an action with which some action of the other goes; the smallest boxes
-/// are enough to try. Membership in K is all that is asked, so this is done on bits, 64 cells a word. Where
-/// the leader moves the leading dimensions and the follower all others, what K leaves to the follower under
-/// an action of the leader is one *plane* of bits, the same for all rows of a unit, and the follower's boxes
-/// are eroded from its rows. Else boxes of both are taken from the rows of K.
+/// The projection on one class has an action if some action of the other class fits it; the smallest boxes
+/// are enough to try. Only membership in K matters, so this is done on bits, 64 cells a word: the gridworld
+/// takes 1.0 s instead of 1.3 s in all, and at steps of 5 mm projections take a third of the time
+/// (FastPaths::pair_projections). Where the leader moves the leading dimensions and the follower all others,
+/// what K leaves to the follower under an action of the leader is one *plane* of bits, the same for all rows
+/// of a unit, and the follower's boxes are eroded from its rows. Else boxes of both are taken from the rows
+/// of K.
 ///
 /// One object a thread.
 class PairProjection {
@@ -24,7 +26,7 @@ class PairProjection {
   /// @pre unchecked: the arguments outlive this object.
   PairProjection(const Controller& controller, const RowBoxes& boxes, std::size_t classes);
 
-  /// False if the classes are not like that. Then find_masks() must not be called.
+  /// False if the classes are not of this form; then find_masks() must not be called.
   [[nodiscard]] bool applies() const { return applies_; }
 
   /// Sets masks[class][group * words, ...] to {x in the row : group is in the projection of C(x)}.
@@ -42,13 +44,13 @@ class PairProjection {
   struct Candidate {
     std::uint32_t group = 0;
     bool is_minimal = false;
-    bool is_full = false;     ///< nothing more can be found
-    std::size_t rows = 0;     ///< follower: which of row_boxes_ it reads
+    bool is_full = false;     ///< the group was found in all cells of `reach`
+    std::size_t rows = 0;     ///< follower: index into row_boxes_
     IndexRange window;        ///< follower: along the fastest dimension
-    std::vector<Word> reach;  ///< the cells that may be found
+    std::vector<Word> reach;  ///< the cells in which the group may be found
   };
 
-  /// A lane beyond the ends of a row (counted from its margin on), and what stands there.
+  /// A lane beyond the ends of a row (counted from its margin on), and the lane whose bit it repeats.
   struct Beyond {
     std::size_t lane;
     std::int64_t source;  ///< lane of the row; negative: a member of every set
@@ -85,10 +87,10 @@ class PairProjection {
   std::int64_t unit_rows_ = 1;
   std::size_t words_ = 0;
   std::size_t plane_words_ = 0;  ///< of a row of a plane
-  std::size_t taken_words_ = 0;  ///< of what is taken from it
+  std::size_t taken_words_ = 0;  ///< of the rows taken from a plane
   RowShape shape_;
   RowMargins margins_;          ///< in lanes
-  std::vector<Beyond> beyond_;  ///< all but those that are never a member
+  std::vector<Beyond> beyond_;  ///< but for lanes that are never a member
   std::int64_t unit_ = -1;
   std::vector<Plane> planes_;  ///< [group of the leader]
   struct Continued {
@@ -99,9 +101,9 @@ class PairProjection {
   RowBox box_;
   std::vector<Word> all_;
   std::vector<Candidate> leaders_, followers_;
-  std::vector<std::vector<IndexRange>> row_boxes_;  ///< distinct boxes of the followers but for `window`
-  std::vector<std::vector<Place>> row_lists_;       ///< what they read
-  std::vector<Word> taken_;  ///< [box of rows * taken_words_] the AND of its rows in the plane at hand
+  std::vector<std::vector<IndexRange>> row_boxes_;  ///< different boxes of the followers, without `window`
+  std::vector<std::vector<Place>> row_lists_;       ///< [box of rows] the rows and lanes that it reads
+  std::vector<Word> taken_;  ///< [box of rows * taken_words_] the AND of its rows in the plane being read
   std::vector<std::uint8_t> is_taken_;
   std::vector<Word> found_;
   std::vector<std::int64_t> lanes_;

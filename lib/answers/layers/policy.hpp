@@ -6,7 +6,7 @@
 
 namespace coordreq {
 
-/// Agents who coordinate choose from C(x), those who are silent from IND_C(x), for as long as the delay is.
+/// Agents who coordinate choose from C(x), silent agents from IND_C(x), for as many steps as the delay.
 [[nodiscard]] std::vector<AnswerPolicy> layer_policies(const ProblemSpec& spec);
 
 }  // namespace coordreq

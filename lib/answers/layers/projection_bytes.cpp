@@ -20,9 +20,9 @@ bool is_product(const Model& model, const std::vector<InputClass>& classes) {
 }  // namespace
 
 double projection_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {
-  constexpr double kBytesOfList = 48;  // its vector, and what the allocator keeps
+  constexpr double kBytesOfList = 48;  // its vector, and the overhead of the allocator
   constexpr double kBytesOfLabel = 1.45;
-  constexpr double kBytesOfBoxes = 220, kBytesOfMoreBoxes = 100;  // of two classes, and of each more
+  constexpr double kBytesOfBoxes = 220, kBytesOfMoreBoxes = 100;  // of two classes, and of each further class
   if (classes.size() == 1) return 0;
   double actions = 0;
   for (const InputClass& inputs : classes) actions += static_cast<double>(inputs.actions());
@@ -38,7 +38,7 @@ double projection_bytes(const EngineSizes& sizes, const std::vector<InputClass>&
       sizes.rows() * (is_joined
                           ? kBytesOfLabel * static_cast<double>(grid.row_length())
                           : kBytesOfBoxes + kBytesOfMoreBoxes * static_cast<double>(classes.size() - 2));
-  // The parts that two classes with few actions can have are few, too.
+  // Two classes with few actions have few parts, too.
   return classes.size() > 2 ? boxes : std::min(masks, boxes);
 }
 

@@ -37,7 +37,7 @@ LaneRange missing_lanes(ConstRow set, ConstRow other) {
 
 }  // namespace
 
-/// Works for one thread.
+/// Finds the projections of rows. One object a thread.
 template <class Level>
 class Projections::Builder {
  public:
@@ -60,7 +60,7 @@ class Projections::Builder {
 
   void enter() { posts_.enter(); }
 
-  /// @returns what was found, valid until the next call
+  /// @returns the projections of a row, valid until the next call
   Found project(const RowPlace& place) {
     if (rules_ != nullptr) return project_by_rules(place);
     const ConstRow invariant = controller_.invariant->row(place.row);
@@ -96,7 +96,7 @@ class Projections::Builder {
   Found project_by_rules(const RowPlace& place) {
     Found found{.row = place.row};
     grouping_.group(place, groups_);
-    // All that has left for good says nothing of what the others do.
+    // A class whose post has left for good fits all actions of the others.
     const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_) && !boxes_.has_gone();
     is_simple_ = false;
     const ConstRow cells = rules_->cells->row(place.row);
@@ -117,7 +117,7 @@ class Projections::Builder {
     return found;
   }
 
-  /// Masks of all classes, and in `members_` the cells where each class has an action.
+  /// Finds the masks of all classes, and in `members_` the cells where each class has an action.
   void find_ruled(const RowPlace& place, ConstRow cells) {
     std::vector<Word> all(cells.begin(), cells.end()), any(cells.size());
     for (std::size_t c = 0; c < masks_.size(); ++c) {
@@ -140,7 +140,7 @@ class Projections::Builder {
     for (std::size_t w = 0; w < cells.size(); ++w) set[w] &= cells[w];
   }
 
-  /// Of the cells in `all` those not in `any`, where class c has no action.
+  /// Counts the cells of `all` that are not in `any`: class c has no action there.
   void count_lacking(const RowPlace& place, std::size_t c, ConstRow any, const std::vector<Word>& all) const {
     std::vector<Word> lacking(all);
     for (std::size_t w = 0; w < any.size(); ++w) lacking[w] &= ~any[w];
@@ -170,7 +170,8 @@ class Projections::Builder {
                                        grouping_.contribution(c, source, action));
   }
 
-  /// Adds where a class may do what leads out through an unsafe side, which products of boxes do not tell.
+  /// Adds the cells where an action of a class leads out through an unsafe side, which products of boxes do
+  /// not show.
   void mark_blocked() {
     for (std::size_t c = 0; c < masks_.size(); ++c) {
       for (std::uint32_t g = 0; g < groups_.classes[c]->size(); ++g) {
@@ -194,7 +195,7 @@ class Projections::Builder {
     }
   }
 
-  /// The larger posts first: what is reasonable with them is so with those inside.
+  /// Finds the masks of class c, larger posts first: where they are reasonable, those inside them are, too.
   void find_masks(const RowPlace& place, std::size_t c) {
     const ActionGroups& own = *groups_.classes[c];
     masks_[c].assign(own.size() * members_.size(), 0);
@@ -216,8 +217,8 @@ class Projections::Builder {
     known_[g] = 1;
     find_reachable(c, g, invariant);
     if (is_subset(reachable_, mask)) return;
-    // An action of class c is in the projection if some action of the others goes with it; their minimal ones
-    // do.
+    // An action of class c is in the projection if some action of the others fits it; the minimal ones are
+    // enough.
     choose_groups(groups_, GroupChoice::minimal, candidates_);
     candidates_[c] = {&g, 1};
     if (is_simple_) {
@@ -233,8 +234,8 @@ class Projections::Builder {
     } while (missing.size() > 0 && tuple_.next());
   }
 
-  /// The cells of K whose post under group g does not leave an unsafe end of the row, whatever the others do:
-  /// no more than these can be found.
+  /// Finds the cells of K from which group g by itself does not leave an unsafe end of the row: no other
+  /// cells can be in the mask.
   void find_reachable(std::size_t c, std::uint32_t g, ConstRow invariant) {
     reachable_.assign(invariant.begin(), invariant.end());
     if (!is_simple_) return;
@@ -248,8 +249,8 @@ class Projections::Builder {
     for (std::size_t w = 0; w < left_.size(); ++w) reachable_[w] &= ~left_[w];
   }
 
-  /// Adds the cells whose post is in K, for all candidates of class c and those after it, to `mask`.
-  /// @returns false if there is no more to find
+  /// Adds to `mask` the cells whose post is in K, for all candidates of class c and the classes after it.
+  /// @returns false if no more cells can be found
   bool add_boxes(std::size_t c, const RowPlace& place, MutableRow mask) {
     const ConstRow invariant = controller_.invariant->row(place.row);
     if (c == candidates_.size()) {
@@ -267,7 +268,7 @@ class Projections::Builder {
   }
 
   const Controller& controller_;
-  const SilentRules* rules_;  ///< or null
+  const SilentRules* rules_;  ///< null: there are none
   const LevelRows<Level>& levels_;
   bool keeps_masks_;
   const ActionGrouping& grouping_;
@@ -275,7 +276,7 @@ class Projections::Builder {
   ForbiddenChoices::Workspace work_;
   RowBoxes boxes_;
   PairProjection pair_;
-  bool is_simple_ = false;  ///< all joint posts of the row are boxes, and everything is allowed
+  bool is_simple_ = false;  ///< all joint posts of the row are boxes, and all joint inputs are allowed
   IndependentPosts independent_;
   PostReader<Level> posts_;
   FreeRows<Level> free_;
@@ -349,7 +350,7 @@ std::span<const Word> Projections::Store::keep(std::span<const Word> list) {
   return std::span<const Word>(block).last(list.size());
 }
 
-/// Every row of K is found by itself, or with the first of those that are the same.
+/// Numbers the rows of K: equal rows get the number of the first of them.
 void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share) {
   const RowShare::Range run = own_rows(share, invariant.rows());
   number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
@@ -363,9 +364,9 @@ void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equa
   });
 }
 
-/// Of which anything will be asked.
+/// Whether projections of the row are needed.
 bool Projections::has_cells(const CellSet& invariant, std::int64_t row) const {
-  if (equal_.mirror != nullptr && !equal_.mirror->is_first(row)) return false;
+  if (equal_.symmetry != nullptr && !equal_.symmetry->is_canonical(row)) return false;
   return any_set(invariant.row(row));
 }
 

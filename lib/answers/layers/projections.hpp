@@ -17,23 +17,22 @@
 namespace coordreq {
 
 /// The projections of C onto the classes of one partition: IND_C(x) is their product (paper, Eq. (4); with
-/// every agent by itself Eq. (3)). Held row by row, of the rows that this process owns, in the form that
-/// makes the least work of them.
+/// every agent by itself Eq. (3)). Held for each row that this process owns, in the form with the least work.
 class Projections {
  public:
-  /// @param equal where C is the same, but for the order of agents, nothing is held, and nothing may be
-  /// asked,
-  ///   of rows that are not the first. Its `numbers` are those of the tables if there are none; they have to
-  ///   tell K apart where the controller is a part of C
-  /// @param keeps_masks whether mask() can be asked of rows in the form of a product, too
+  /// @param equal with a symmetry nothing is held of rows that are not canonical, and nothing may be asked of
+  ///   them. Without `numbers` those of the tables are taken; where the controller is a part of C, numbers
+  ///   have to tell rows apart in which K differs
+  /// @param keeps_masks whether mask() is there also for rows in the form of a product
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
               ThreadTeam& team, const EqualWork& equal = {}, bool keeps_masks = false);
-  /// What classes do by rules instead: of the cells in which they are asked for, each class by what it may do
-  /// there. Where some class may do nothing, or all together what is forbidden, see forbidden().
+  /// Projections by rules instead of C: for the cells in which rules are asked for, the actions that each
+  /// class may take. forbidden() has the cells where a class has no action, or all classes together may take
+  /// a forbidden joint input.
   /// @pre unchecked: the grouping tells actions apart by the rules, too.
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
               ThreadTeam& team, const SilentRules& rules);
-  Projections(Projections&&) = default;  // what it has found points into what it keeps
+  Projections(Projections&&) = default;  // members of found_ point into stores_
   Projections& operator=(Projections&&) = default;
   Projections(const Projections&) = delete;
   Projections& operator=(const Projections&) = delete;
@@ -41,8 +40,8 @@ class Projections {
 
   [[nodiscard]] const ActionGrouping& grouping() const { return *grouping_; }
   enum class Form : std::uint8_t {
-    full,     ///< every action is in C(x) for all x of K in the row (or there are none)
-    masks,    ///< a bit row for each group of actions of each class, see mask()
+    full,     ///< every action is in C(x) for all x of K in the row (or K has no cell there)
+    masks,    ///< a row of bits for each group of actions of each class, see mask()
     product,  ///< boxes of posts for parts of the row, see IndependentPosts
   };
   [[nodiscard]] Form form(std::int64_t row) const {
@@ -51,32 +50,32 @@ class Projections {
     if (!found_[number - 1].packed.empty()) return Form::product;
     return found_[number - 1].masks.empty() ? Form::full : Form::masks;
   }
-  /// [row] not 0 where every action is in C(x) for all x of K in the row, and K has any there: then IND_C is
-  /// the same for all partitions.
+  /// [row] not 0 where every action is in C(x) for all x of K in the row, and K has cells there: then IND_C
+  /// is the same for all partitions.
   [[nodiscard]] const std::vector<std::uint8_t>& full_rows() const { return is_full_; }
   /// {x in the row : group g of class c is in the projection of C(x)}; groups as ActionGrouping::group
-  /// numbers them. @pre form(row) is `masks`, or masks are kept and the row is none of full_rows()
+  /// numbers them. @pre form(row) is `masks`, or masks are kept and the row is not in full_rows()
   [[nodiscard]] ConstRow mask(std::int64_t row, const RowGroups& groups, std::size_t c,
                               std::uint32_t g) const;
-  /// For IndependentPosts::unpack(). Boxes are those of a row that is the same, seen from itself: they lie
-  /// somewhere else by shift(). @pre form(row) is `product`
+  /// For IndependentPosts::unpack(). The boxes are those of a row that is equal seen from itself: they have
+  /// to be moved by find_shift(). @pre form(row) is `product`
   [[nodiscard]] ConstRow packed(std::int64_t row) const {
     REQUIRES(form(row) == Form::product);
     return of(row).packed;
   }
-  /// The cells of the row where IND_C holds a joint input that is forbidden; by rules also those where it
-  /// holds none. Empty if there are none.
+  /// The cells of the row where IND_C holds a forbidden joint input; with rules also the cells where it is
+  /// empty. Empty if there are no such cells.
   [[nodiscard]] ConstRow forbidden(std::int64_t row) const {
     return number_[static_cast<std::size_t>(row)] == kNothing ? ConstRow() : of(row).forbidden;
   }
-  /// @returns whether boxes have to be moved at all
+  /// The shift of the boxes of packed(). @returns whether boxes have to be moved
   bool find_shift(std::int64_t row, std::vector<std::int32_t>& shift) const {
     if (of(row).row == row) return false;
     equal_.tiles->find_shift(of(row).row, row, shift);
     return true;
   }
 
-  /// What the operator of IND_C depends on, but for levels.
+  /// Equal work of the operator of IND_C.
   [[nodiscard]] const EqualWork& equal_work() const { return equal_; }
 
  private:
@@ -85,8 +84,8 @@ class Projections {
   class Builder;
   void find_all(const Controller& controller, const RowHull& hull, ThreadTeam& team, const SilentRules* rules,
                 bool keeps_masks);
-  /// Keeps lists of words one behind the other, which stay where they are: an allocation a row costs more
-  /// than what is in it.
+  /// Keeps lists of words one behind the other, at fixed addresses: an allocation for each row would take
+  /// more memory than its words.
   class Store {
    public:
     [[nodiscard]] std::span<const Word> keep(std::span<const Word> list);
@@ -95,7 +94,7 @@ class Projections {
     static constexpr std::size_t kBlock = std::size_t{1} << 15;
     std::vector<std::vector<Word>> blocks_;
   };
-  /// What was found for one row, and holds for those that are the same.
+  /// The projections of one row, and of all rows equal to it.
   struct Found {
     std::int64_t row = 0;
     bool is_full = false;
@@ -113,10 +112,11 @@ class Projections {
   const ActionGrouping* grouping_;
   std::size_t words_;
   EqualWork equal_;
-  Tiles::Numbers classes_;             ///< [tile] equal numbers where projections are the same
-  ZeroedArray<std::uint32_t> number_;  ///< [row] 1 + its place in `found_`, or kNothing where K has no cell
+  Tiles::Numbers classes_;  ///< [tile] equal numbers where projections are the same
+  ZeroedArray<std::uint32_t>
+      number_;  ///< [row] 1 + its index in `found_`, or kNothing if K has no cell in the row
   std::vector<Found> found_;
-  std::vector<Store> stores_;  ///< [worker] for these
+  std::vector<Store> stores_;  ///< [worker] the words of `found_`
   std::vector<std::uint8_t> is_full_;
 };
 

@@ -18,8 +18,8 @@ namespace coordreq {
 /// refines.
 [[nodiscard]] std::vector<std::size_t> coarsest_first(const std::vector<PartitionSpec>& partitions);
 
-/// Of the other partitions that partition p refines, those that no other of them refines: bounds that say all
-/// that the rest could say. Ascending indices.
+/// Of the other partitions that partition p refines, those that no other of them refines: their bounds imply
+/// those of the rest. Ascending indices.
 [[nodiscard]] std::vector<std::size_t> next_coarser(const std::vector<PartitionSpec>& partitions,
                                                     std::size_t p);
 

@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// What is stored of a partition besides arrays over cells.
+/// The stored values of a partition that are not arrays over cells.
 struct StoredPartition {
   std::string name;
   std::vector<std::string> classes;         ///< names of the classes, in the order of the spec
@@ -31,8 +31,8 @@ struct StoredLayers {
 [[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
                                                                  const FieldSource& source,
                                                                  const std::string& prefix = "/");
-/// @pre unchecked: they are stored. @throws ResultsError unless `start` ascends from 0 to the number of cells
-/// and `cell` holds cells of the grid
+/// @pre unchecked: the lists are stored. @throws ResultsError unless `start` ascends from 0 to the number of
+///   cells and `cell` holds cells of the grid
 [[nodiscard]] StoredLayers read_layer_lists(const ProblemSpec& spec, const PartitionSpec& partition,
                                             const FieldSource& source);
 

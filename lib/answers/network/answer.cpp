@@ -14,7 +14,7 @@
 namespace coordreq {
 namespace {
 
-/// The sets of all modes, each a part of K.
+/// Saves or loads the sets of all modes, each a part of K.
 void serialise(Archive& archive, const RowShare* share, const CellSet& invariant,
                std::vector<CellSet>& sets) {
   for (CellSet& set : sets) serialise(archive, share, invariant, set);
@@ -114,8 +114,7 @@ MemoryNeed network_memory(const EngineSizes& sizes, int threads) {
   const auto modes = static_cast<double>(spec.network->modes.size());
   MemoryNeed need{.kept = modes * sizes.set(), .array = modes * sizes.cells()};
   need.work = modes * (sizes.rows() / 8) + sizes.levels() + sizes.readers(threads);
-  if (spec.network->resynthesise)
-    need.work += modes * sizes.set();  // what is left of the rows that lose cells
+  if (spec.network->resynthesise) need.work += modes * sizes.set();  // the rows that lose cells
   for (const PartitionSpec* partition : network_partitions(*spec.network)) {
     const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), *partition);
     need.work += sizes.groups(classes);

@@ -15,7 +15,7 @@ namespace coordreq {
 [[nodiscard]] std::vector<Stage> network_stages(const ProblemSpec& spec);
 [[nodiscard]] MemoryNeed network_memory(const EngineSizes& sizes, int threads);
 void summarise_network(const Answers& answers, Json& summary, Json& work);
-/// Fails where not as many safe cells are told as there are modes.
+/// Fails if the numbers of safe cells are not as many as modes.
 void examine_network(const ProblemSpec& spec, const FieldSource& source);
 void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info);
 

@@ -24,7 +24,7 @@ bool CarefulActions::next_levels(const RowPlace& place, PostReader<Level>& posts
   Workspace& work = work_[static_cast<std::size_t>(worker)];
   const RowEngine& engine = grouping_.engine();
   const auto n = static_cast<std::size_t>(engine.row_length());
-  if (engine.allow() == nullptr) {  // whatever they do is then in C_q
+  if (engine.allow() == nullptr) {  // all joint inputs are then allowed, and in C_q
     hull_.box(place, work.box);
     if (work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n)) return false;
   }

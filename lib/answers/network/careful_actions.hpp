@@ -7,20 +7,19 @@
 
 namespace coordreq {
 
-/// kTop where agents that restrict themselves to actions that lead into the target can do so without further
-/// contact: C_q(x) = {u allowed : empty != f(x,u) subset of the target} is not empty, and every choice of the
-/// product of its projections, IND(C_q)(x), is in C_q(x) again. Else 0. The target is the set of cells of
-/// level kTop.
+/// kTop where agents can restrict themselves, without further contact, to actions that lead into the target:
+/// C_q(x) = {u allowed : empty != f(x,u) subset of the target} is not empty, and every element of the product
+/// of its projections, IND(C_q)(x), is in C_q(x). Else 0. The target is the set of cells of level kTop.
 ///
-/// Not monotone in the target: with a smaller one fewer actions are left, which fit together the better. So
-/// not for run_wave().
+/// Not monotone in the target: with a smaller target fewer actions are left, which may fit together where
+/// more do not. So not for run_wave().
 class CarefulActions final : public RowOperator<std::uint8_t> {
  public:
   /// @param grouping by the classes that coordinate
   /// @pre unchecked: both outlive this object.
   CarefulActions(const ActionGrouping& grouping, const RowHull& hull, int workers);
 
-  /// @returns false if that is so for all cells x with old[x] != 0
+  /// @returns false if the level is kTop for all cells x with old[x] != 0
   bool next_levels(const RowPlace& place, PostReader<std::uint8_t>& posts, const std::uint8_t* old,
                    std::uint8_t* next, int worker) override;
 
@@ -32,10 +31,10 @@ class CarefulActions final : public RowOperator<std::uint8_t> {
     RowBox box;
     std::vector<Word> wanted;                   ///< cells with old != 0
     std::vector<Word> good;                     ///< cells where a choice of groups is in C_q
-    std::vector<Word> known;                    ///< `good` of the first choices, in their order
-    std::vector<Word> mixed;                    ///< cells where it is in IND(C_q)
+    std::vector<Word> known;                    ///< `good` of the first choices, in the order of the walk
+    std::vector<Word> mixed;                    ///< cells where the choice is in IND(C_q)
     std::vector<Word> stays;                    ///< the result
-    std::vector<std::vector<Word>> projection;  ///< [class] a row a group
+    std::vector<std::vector<Word>> projection;  ///< [class] one row for each group
   };
 
   void find_projections(const RowPlace& place, PostReader<std::uint8_t>& posts, Workspace& work) const;

@@ -15,7 +15,7 @@ using Members = std::vector<std::uint8_t>;
 
 constexpr char kNetworkSafe[] = "/network_safe";
 
-/// What all threads read.
+/// Data that all threads read.
 struct Network {
   explicit Network(const CheckGround& ground) : spec(*ground.spec->network) {
     for (const NetworkModeSpec& mode : spec.modes) {
@@ -32,7 +32,7 @@ struct Network {
   }
 
   const NetworkSpec& spec;
-  std::vector<std::vector<std::vector<std::int32_t>>> partitions;  ///< different ones
+  std::vector<std::vector<std::vector<std::int32_t>>> partitions;  ///< the different partitions of the modes
   std::vector<std::size_t> partition_of;                           ///< by mode
   std::vector<Members> target;                                     ///< T(q)
 };
@@ -100,7 +100,8 @@ class NetworkChecker : public CellChecker {
   /// empty != f(x, u) subset of the set.
   [[nodiscard]] bool is_inside(std::int64_t u, const Members& set) { return cell_->least(u, set, 0, 1) != 0; }
 
-  /// Where posts are perhaps others, so are the choices of agents.
+  /// Counts a claim as open if the posts, and so the choices of agents, may be others than those of the
+  /// analysis; else as wrong.
   void doubt(std::size_t mode, const char* what) {
     if (ground_.sound_only()) {
       tally_.add_unproven();
@@ -122,7 +123,7 @@ class NetworkChecker : public CellChecker {
   std::size_t inputs_;
   std::vector<IndependentChoices> independent_;     ///< [partition]
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell
-  CheckedCell* cell_ = nullptr;                     ///< at work
+  CheckedCell* cell_ = nullptr;                     ///< the cell being checked
 };
 
 class NetworkCheck : public AnswerCheck {

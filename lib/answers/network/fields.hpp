@@ -15,7 +15,7 @@ inline constexpr char kNetworkSafe[] = "/network_safe";
 /// Whether each mode of the network is safe from a cell.
 [[nodiscard]] Fields network_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_network_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

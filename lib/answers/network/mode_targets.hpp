@@ -10,9 +10,9 @@
 namespace coordreq {
 
 /// The sets W(q) of all modes while they shrink, and the target T(q) of one mode at a time, the intersection
-/// of W(q') over the modes q' that follow q: as levels, kTop for members and 0 for others.
+/// of W(q') over the modes q' that follow q: as levels, kTop for members and 0 for other cells.
 ///
-/// Remembers of each mode in which rows its target has changed since it was last asked for pending rows.
+/// Remembers for each mode the rows in which its target has changed since take_pending() was last called.
 class ModeTargets {
  public:
   /// All W(q) are `start`, and all rows are pending.
@@ -23,18 +23,18 @@ class ModeTargets {
   [[nodiscard]] const CellSet& set(std::size_t mode) const { return sets_[mode]; }
   [[nodiscard]] std::vector<CellSet> take_sets() { return std::move(sets_); }
 
-  /// Brings the rows of the halo up to date: those of other processes that have changed since this was called
-  /// last. Together. @returns whether rows of any have
+  /// Brings ghost rows up to date: rows of other processes that have changed since this was called last.
+  /// Together. @returns whether rows of any process have changed
   bool exchange();
 
-  /// Whether any row of the target of a mode has changed, of those held.
+  /// Whether some row held of the target of a mode has changed.
   [[nodiscard]] bool has_changed(std::size_t mode) const { return state_[mode] != State::settled; }
   /// Makes levels() those of this mode's target.
   void load(std::size_t mode, ThreadTeam& team);
   [[nodiscard]] const LevelRows<std::uint8_t>& levels() const { return levels_; }
-  /// The own rows with cells in W(mode) from which a row of the target can be met that has changed,
-  /// ascending. From now on nothing counts as changed for this mode.
-  /// @param alive how many rows have cells in W(mode)
+  /// The own rows with cells in W(mode) whose posts can meet a row of the target that has changed, ascending.
+  /// From now on no row counts as changed for this mode.
+  /// @param alive set to the number of rows with cells in W(mode)
   [[nodiscard]] std::vector<std::int64_t> take_pending(std::size_t mode, std::int64_t& alive,
                                                        ThreadTeam& team);
   /// Replaces a row of W(mode).
@@ -56,8 +56,9 @@ class ModeTargets {
   std::vector<std::vector<std::size_t>> predecessors_;
   std::vector<CellSet> sets_;
   std::vector<State> state_;
-  std::vector<std::vector<Word>> changed_;  ///< [mode] a bit a row of its target
-  std::vector<std::vector<Word>> untold_;  ///< [mode] a bit a row of W(mode) that other processes do not know
+  std::vector<std::vector<Word>> changed_;  ///< [mode] one bit for each row of its target
+  std::vector<std::vector<Word>>
+      untold_;  ///< [mode] one bit for each row of W(mode) that was not sent to other processes
   LevelRows<std::uint8_t> levels_;
   std::size_t loaded_;
 };

@@ -6,12 +6,13 @@
 
 namespace coordreq {
 
-/// The network of a spec as the operators take it; modes that connect the same agents share a partition.
-/// No goal ends the task.
+/// The network of a spec as input of find_network_safety(); modes that connect the same agents share a
+/// partition. Without a goal that ends the task.
 /// @pre the spec has a network. @pre unchecked: `controller` and `hull` outlive the result
 [[nodiscard]] NetworkProblem network_problem(const ProblemSpec& spec, const Controller& controller,
                                              const RowHull& hull);
-/// That of the spec, of which K is known. @pre it has a network. @pre unchecked: `answers` outlive the result
+/// The network of the spec, with K. @pre the spec has a network. @pre unchecked: K is known; `answers`
+/// outlive the result
 [[nodiscard]] NetworkProblem network_problem(const Answers& answers);
 
 /// The different partitions of the modes of a network, in the order of the modes.

@@ -16,9 +16,9 @@ namespace {
 using Level = std::uint8_t;
 
 /// Rows that one thread takes at a time.
-constexpr std::int64_t kPieceRows = 16;
+constexpr std::int64_t kTaskRows = 16;
 
-/// One operator a partition, with all that it refers to.
+/// One operator for each partition, with the objects to which it refers.
 class Operators {
  public:
   Operators(const NetworkProblem& problem, ThreadTeam& team) {
@@ -43,12 +43,12 @@ class Operators {
   std::vector<std::unique_ptr<RowOperator<Level>>> operators_;
 };
 
-/// Every mode after those that follow it, as far as there are no rings: so what is lost travels backwards
-/// through many modes in one round.
+/// Every mode after its successors, as far as there are no cycles: so losses travel backwards through many
+/// modes in one round.
 std::vector<std::size_t> successors_first(const std::vector<NetworkMode>& modes) {
   std::vector<std::size_t> order;
   std::vector<std::uint8_t> is_seen(modes.size(), 0);
-  std::vector<std::pair<std::size_t, std::size_t>> path;  // mode, and how many of its successors are done
+  std::vector<std::pair<std::size_t, std::size_t>> path;  // (mode, number of its successors that are done)
   for (std::size_t root = 0; root < modes.size(); ++root) {
     if (is_seen[root] == 0) path.emplace_back(root, 0);
     is_seen[root] = 1;
@@ -71,7 +71,7 @@ std::vector<std::size_t> successors_first(const std::vector<NetworkMode>& modes)
 struct Losses {
   std::size_t mode = 0;
   std::vector<std::int64_t> rows;
-  std::vector<Word> cells;  ///< what is left of each
+  std::vector<Word> cells;  ///< the cells left in each row
 };
 
 class Iteration {
@@ -88,7 +88,7 @@ class Iteration {
     if (watch.resumed != nullptr) resume(*watch.resumed);
   }
 
-  /// In the order that is best; @pre unchecked: the operators are monotone.
+  /// Iterates in the order of successors_first(). @pre unchecked: the operators are monotone
   void run_in_any_order() {
     const std::vector<std::size_t> order = successors_first(modes_);
     for (bool changed = true; changed || hears_of_others();) {
@@ -103,7 +103,7 @@ class Iteration {
     }
   }
 
-  /// Each round sees what the round before has left.
+  /// Iterates in rounds, each from the sets that the round before has left.
   void run_synchronously() {
     for (bool changed = true; changed;) {
       std::vector<Losses> lost;
@@ -142,7 +142,7 @@ class Iteration {
     std::int64_t alive = 0;
     const std::vector<std::int64_t> rows = targets_.take_pending(mode, alive, team_);
     const auto count = static_cast<std::int64_t>(rows.size());
-    team_.for_each(count, kPieceRows, [&](ThreadTeam::Range range, int w) {
+    team_.for_each(count, kTaskRows, [&](ThreadTeam::Range range, int w) {
       Worker& worker = workers_[static_cast<std::size_t>(w)];
       std::int64_t unit = -1;
       for (std::int64_t i = range.begin; i < range.end; ++i) {
@@ -175,7 +175,7 @@ class Iteration {
     return targets_.exchange();
   }
 
-  /// @param whole whether the sets are such that the work can be taken up from them, those of all processes
+  /// @param whole whether work can be taken up from the sets, as those of all processes belong together
   void tell(bool whole) {
     if (!watch_.step) return;
     std::vector<NumberRows> sets;
@@ -228,7 +228,7 @@ class Iteration {
   WaveStep step_;
   ThreadTeam& team_;
   Operators operators_;
-  const CellSet* over_;  ///< cells that nothing is asked about; null: none
+  const CellSet* over_;  ///< cells whose posts are not looked at; null: none
   ModeTargets targets_;
   std::deque<Worker> workers_;
   WaveCounts counts_;

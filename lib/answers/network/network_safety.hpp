@@ -21,11 +21,12 @@ struct NetworkMode {
 };
 
 struct NetworkProblem {
-  const Controller* controller = nullptr;  ///< of K, without a goal that ends the task
+  const Controller* controller = nullptr;  ///< C in K, without the cells of a goal that ends the task
   const CellSet* invariant = nullptr;      ///< K
-  const CellSet* over = nullptr;           ///< that goal, which is in every W(q); null: there is none
+  const CellSet* over =
+      nullptr;  ///< G of a goal that ends the task, which is in every W(q); null: there is none
   const RowHull* hull = nullptr;
-  std::vector<std::vector<InputClass>> partitions;  ///< all different; the classes of each
+  std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each
   std::vector<NetworkMode> modes;
   bool resynthesise = false;
 };
@@ -35,17 +36,17 @@ struct NetworkSafety {
   WaveCounts counts;
 };
 
-/// Looks on while the sets shrink, and says where to take up work that was broken off.
+/// Observes the sets while they shrink, and says where to take up work that was broken off.
 struct NetworkWatch {
   /// As WaveWatch::step, after each sweep over the rows of a mode; the state is the sets of all modes. Where
-  /// rounds are synchronous there is one at the end of a round only.
+  /// rounds are synchronous only a step at the end of a round has a state.
   std::function<void(const WaveStep&)> step;
-  /// Sets that `step` has been shown; taken away. Null: begin with K.
+  /// Sets that `step` was given; moved from. Null: begin with K.
   ///
   /// The result is the same. Usually the operator is monotone, and the sets lie above the greatest solution.
-  /// For `resynthesise` they are those of a round, and the next round finds the same as it would have: it
-  /// works out every row, and a row that it would have passed over has met nothing that changed, so that
-  /// it loses nothing.
+  /// For `resynthesise` they are those after a round, and the next round finds the same sets as without
+  /// interruption: it works out every row, and a row that it would have passed over meets no change, so that
+  /// it loses no cell.
   std::vector<CellSet>* resumed = nullptr;
 };
 
@@ -57,10 +58,10 @@ struct NetworkWatch {
 /// - `resynthesise`: agents restrict themselves to C_q(x) = {u allowed : empty != f(x,u) subset of T(q)}.
 ///   From W(q) = K on, synchronously, W(q) <- W(q) n {x : C_q(x) != empty, IND(C_q)(x) subset of C_q(x)}
 ///   until nothing changes. Sound, as the last W is a fixed point; perhaps not the largest, as the operator
-///   is not monotone. Without a controller file it has all cells of the W above: at those C_q = C = IND_C
-///   in every iteration, since T(q) lies between that of the W above and K.
+///   is not monotone. Without a controller file it has all cells of the W above: there C_q = C = IND_C in
+///   every iteration, since T(q) lies between the T(q) of the W above and K.
 ///
-/// A goal that ends the task is in every W(q), and nothing is asked of its cells.
+/// The cells of a goal that ends the task are in every W(q), and their posts are not looked at.
 ///
 /// Memory: a set of cells for each mode (`resynthesise`: up to two), a byte a cell, and the projections of C
 /// for all partitions (`resynthesise`: none).

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/index.hpp"
-#include "base/merger.hpp"
+#include "base/union_find.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
@@ -14,7 +14,7 @@
 namespace coordreq {
 namespace {
 
-/// Nothing is left inside.
+/// Whether no index is left inside.
 bool is_empty(const IndexRange& range) {
   return range.first > range.last;
 }
@@ -33,14 +33,15 @@ AdmissibleInputs::AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Se
   find_components();
 }
 
-/// States that share an input belong together, and so do all inputs that `allow` mentions.
+/// Finds the components: states that share an input belong together, and so do all inputs that `allow`
+/// mentions.
 void AdmissibleInputs::find_components() {
   const std::size_t inputs = posts_->inputs().size();
   const std::size_t states = posts_->grid().size();
-  Merger merger(inputs);
+  UnionFind sets(inputs);
   for (std::size_t s = 0; s < states; ++s) {
     const std::vector<std::int32_t>& used = posts_->inputs_of(s);
-    for (const std::int32_t j : used) merger.merge(at(used.front()), at(j));
+    for (const std::int32_t j : used) sets.merge(at(used.front()), at(j));
   }
   std::size_t first_of_allow = inputs;
   if (allow_) {
@@ -49,20 +50,20 @@ void AdmissibleInputs::find_components() {
       const std::size_t i = slot - spec_->input_slot(0);
       if (i >= inputs) continue;  // a state's cell
       if (first_of_allow == inputs) first_of_allow = i;
-      merger.merge(first_of_allow, i);
+      sets.merge(first_of_allow, i);
     }
   }
   allow_has_inputs_ = first_of_allow < inputs;
   for (std::size_t i = 0; i < inputs; ++i) {
-    if (merger.root(i) != i) continue;
+    if (sets.root(i) != i) continue;
     Component& component = components_.emplace_back();
     for (std::size_t j = 0; j < inputs; ++j) {
-      if (merger.root(j) == i) component.inputs.push_back(j);
+      if (sets.root(j) == i) component.inputs.push_back(j);
     }
-    component.has_allow = allow_has_inputs_ && merger.root(first_of_allow) == i;
+    component.has_allow = allow_has_inputs_ && sets.root(first_of_allow) == i;
     for (std::size_t s = 0; s < states; ++s) {
       const std::vector<std::int32_t>& used = posts_->inputs_of(s);
-      if (!used.empty() && merger.root(at(used.front())) == i) component.states.push_back(s);
+      if (!used.empty() && sets.root(at(used.front())) == i) component.states.push_back(s);
     }
   }
   Component& autonomous = components_.emplace_back();
@@ -75,7 +76,7 @@ bool AdmissibleInputs::allows(std::int64_t x, std::int64_t u) {
   return !forbids(x, u) && (!sets_.listed || sets_.listed(x, u));
 }
 
-/// The component's states under `u`; nothing if blocked. `given` does not ask: all moves are alike.
+/// The move of a component under `u`; nothing if it is blocked. For `given` all moves are equal.
 std::optional<AdmissibleInputs::Move> AdmissibleInputs::move(const Component& component,
                                                              std::int64_t u) const {
   Move result;
@@ -94,7 +95,8 @@ std::optional<AdmissibleInputs::Move> AdmissibleInputs::move(const Component& co
   return result;
 }
 
-/// All inputs of a component that `allow` permits and that are not blocked, by the move that they lead to.
+/// Finds the moves of a component, each with the inputs that lead to it, of those that `allow` permits and
+/// that are not blocked.
 void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
   std::vector<std::int64_t> counts;
   for (const std::size_t i : component.inputs) counts.push_back(posts_->inputs()[i].count());
@@ -131,7 +133,7 @@ const std::vector<std::int64_t>& AdmissibleInputs::of(std::int64_t x) {
   return admissible_;
 }
 
-/// Makes the set ready for all boxes that it may be asked for, made of one move a component.
+/// Calls cover() of a set for a box around all products of one move for each component.
 void AdmissibleInputs::cover(Box Move::*part, CellMembers& set) const {
   Box hull(posts_->grid().size(), IndexRange{1, 0});
   for (const Component& component : components_) {
@@ -145,7 +147,7 @@ void AdmissibleInputs::cover(Box Move::*part, CellMembers& set) const {
       }
     }
   }
-  // If one state has left under all inputs, there is nothing to ask.
+  // If one state has left under all inputs, no box is asked about.
   if (std::none_of(hull.begin(), hull.end(), is_empty)) set.cover(hull);
 }
 
@@ -165,7 +167,7 @@ void AdmissibleInputs::prepare_sets() {
   cover(&Move::tube, *safe_beyond_);
 }
 
-/// By marks where C(x) is a good part of all joint inputs, which is faster.
+/// Sorts the joint inputs found; by marks where they are a large part of all, which is faster.
 void AdmissibleInputs::sort() {
   const std::size_t inputs = at(posts_->inputs().count());
   if (admissible_.size() < inputs / 32) {
@@ -180,7 +182,7 @@ void AdmissibleInputs::sort() {
   }
 }
 
-/// empty != f(x,u) subset of K, for one move a component. `given` does not ask.
+/// Whether empty != f(x,u) subset of K, for one move of each component; true for `given`.
 bool AdmissibleInputs::is_safe(const std::vector<std::int64_t>& choice) const {
   if (spec_->controller.synthesis == Synthesis::given) return true;
   if (!stays_in(choice, &Move::post, *sets_.invariant)) return false;
@@ -199,14 +201,14 @@ bool AdmissibleInputs::stays_in(const std::vector<std::int64_t>& choice, Box Mov
   for (std::size_t c = 0; c < components_.size(); ++c) {
     const Box& chosen = components_[c].groups[at(choice[c])].first.*part;
     for (std::size_t j = 0; j < chosen.size(); ++j) {
-      if (is_empty(chosen[j])) return true;  // all of it has left safely
+      if (is_empty(chosen[j])) return true;  // the post has left safely
       box[components_[c].states[j]] = chosen[j];
     }
   }
   return set.contains(box);
 }
 
-/// All joint inputs whose parts lead to the chosen moves.
+/// Adds all joint inputs that lead to the chosen moves.
 void AdmissibleInputs::collect(const std::vector<std::int64_t>& choice) {
   std::vector<std::int64_t> sums = {0};
   for (std::size_t c = 0; c < components_.size(); ++c) {

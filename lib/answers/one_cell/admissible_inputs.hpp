@@ -17,47 +17,47 @@ namespace coordreq {
 /// The controller C at single cells, computed when asked for: the analysis never stores C, and a run or a
 /// question visits few cells. Straight from the definitions (contract, "Controller").
 ///
-/// States and inputs fall into components that have nothing to do with one another (as the directions of a
-/// robot). Inputs of a component that move it alike are tried once: the gridworld's 14,641 joint inputs
-/// become at most 625 boxes. Scratch inside: one object a thread.
+/// States and inputs fall into components that do not depend on one another (as the directions of a robot).
+/// Inputs of a component with the same post are tried once: the gridworld's 14,641 joint inputs become at
+/// most 625 boxes. One object a thread.
 class AdmissibleInputs {
  public:
   struct Sets {
     CellMembers* invariant = nullptr;
-    CellMembers* safe = nullptr;  ///< needed only if there are tubes
-    /// TubeSets::beyond, called only where it matters; none: it is S.
+    CellMembers* safe = nullptr;  ///< read only if there are tubes
+    /// Gives TubeSets::beyond, called only if a tube passes a limit; empty: the set is S.
     std::function<CellMembers*()> safe_beyond;
-    /// Whether `controller.file` lists a pair of a cell and a joint input; none: there is no such file.
+    /// Whether `controller.file` lists a pair of a cell and a joint input; empty: there is no such file.
     std::function<bool(std::int64_t cell, std::int64_t u)> listed;
   };
 
-  /// @pre unchecked: `spec`, `posts`, which are the spec's, and all sets outlive this object.
+  /// @pre unchecked: `posts` are of `spec`; they, `spec` and all sets outlive this object.
   AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Sets sets);
 
-  /// C(x) as joint inputs, ascending. `maximal`: {u allowed : empty != f(x,u) subset of K}; `given`: all that
-  /// are allowed. @pre unchecked: x is in K. Cost: that of asking the sets for every different post, and
+  /// C(x) as joint inputs, ascending. `maximal`: {u allowed : empty != f(x,u) subset of K}; `given`: all
+  /// allowed joint inputs. @pre unchecked: x is in K. Cost: a look at the sets for every different post, and
   /// |C(x)|.
   /// @throws SpecError if `allow` cannot be decided
   [[nodiscard]] const std::vector<std::int64_t>& of(std::int64_t x);
   /// Whether `allow` permits u at any cell x of the grid, and `controller.file` lists it.
   [[nodiscard]] bool allows(std::int64_t x, std::int64_t u);
-  /// Whether `allow` does not permit it; what the file does not list is not forbidden.
+  /// Whether `allow` does not permit u at x; a joint input that the file does not list is not forbidden.
   [[nodiscard]] bool forbids(std::int64_t x, std::int64_t u) { return allow_ && !allow_->holds(x, u); }
 
  private:
   using Box = std::vector<IndexRange>;  ///< of some states
-  /// Where a component's states can be next, and on the way there.
+  /// Where the states of a component can be next, and between the samples.
   struct Move {
     Box post;
-    Box tube;  ///< empty if there are none
+    Box tube;  ///< empty if there are no tubes
     bool passes_a_limit = false;
     [[nodiscard]] auto operator<=>(const Move&) const = default;
   };
   struct Component {
     std::vector<std::size_t> states;
     std::vector<std::size_t> inputs;
-    bool has_allow = false;  ///< `allow` depends on inputs, all of them in here
-    /// Of the cell at work: the parts of joint input numbers that lead to a move.
+    bool has_allow = false;  ///< `allow` depends on inputs, which are all in this component
+    /// Of the last cell: the moves, with the contributions to the number of a joint input that lead to each.
     std::vector<std::pair<Move, std::vector<std::int64_t>>> groups;
   };
 
@@ -75,9 +75,10 @@ class AdmissibleInputs {
   const ProblemSpec* spec_;
   CellPosts* posts_;
   Sets sets_;
-  CellMembers* safe_beyond_ = nullptr;  ///< of the cell at work: what tubes that pass a limit must stay in
+  CellMembers* safe_beyond_ =
+      nullptr;  ///< of the last cell: the set in which tubes that pass a limit must stay
   std::vector<Component> components_;
-  std::unique_ptr<PairTruth> allow_;  ///< none if everything is allowed
+  std::unique_ptr<PairTruth> allow_;  ///< null if all joint inputs are allowed
   bool allow_has_inputs_ = false;
   std::vector<std::int64_t> admissible_;
   std::vector<bool> marks_;

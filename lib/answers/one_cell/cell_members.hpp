@@ -23,8 +23,8 @@ bool for_each_cell(const UniformGrid& grid, std::span<const IndexRange> box, con
   return true;
 }
 
-/// A set of cells, of which it is asked whether boxes lie in it. Ranges as ResolvedRange::inside has them: an
-/// index beyond the last one of a periodic dimension wraps.
+/// A set of cells that is asked whether boxes lie in it. Ranges as ResolvedRange::inside has them: an index
+/// beyond the last one of a periodic dimension wraps.
 class CellMembers {
  public:
   CellMembers() = default;
@@ -32,10 +32,10 @@ class CellMembers {
   CellMembers& operator=(const CellMembers&) = delete;
   virtual ~CellMembers() = default;
 
-  /// Makes ready for boxes within this one.
+  /// Prepares for boxes inside this box.
   virtual void cover(std::span<const IndexRange> box) = 0;
-  /// Whether all cells of the box are in the set. @pre unchecked: a box that cover() was called for, or part
-  /// of one.
+  /// Whether all cells of the box are in the set. @pre unchecked: cover() was called for the box, or for one
+  /// around it.
   [[nodiscard]] virtual bool contains(std::span<const IndexRange> box) const = 0;
 };
 

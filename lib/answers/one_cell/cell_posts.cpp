@@ -22,13 +22,14 @@ double entries_of(const std::vector<TableShape>& shapes) {
   return entries;
 }
 
-/// Entries to compute from which on all are computed. Sums have few, and no others hold the same ranges.
+/// The number of entries computed one by one after which the whole is computed. 0 if a table is a sum: sums
+/// have few entries, and entries of other tables would be other ranges.
 double most_entries(const std::vector<TableShape>& shapes) {
   const bool sums = std::any_of(shapes.begin(), shapes.end(), [](const TableShape& one) { return one.sum; });
   return sums ? 0 : entries_of(shapes);
 }
 
-/// Notes the unsafe sides that a range passes.
+/// Adds the unsafe sides that a range passes.
 void add_sides(std::size_t i, IndexRange raw, const GridDimension& dimension, CellPost& post) {
   const bool below = raw.first < 0 && traits(dimension.below).blocks;
   const bool above = raw.last >= dimension.count && traits(dimension.above).blocks;

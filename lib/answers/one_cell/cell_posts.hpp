@@ -28,14 +28,14 @@ struct CellPost {
     unsafe_between_samples,  ///< the tube is not safe
   };
   Blocked blocked = Blocked::no;
-  std::vector<DomainSide> sides;  ///< unsafe ones that were left by, if `left_domain`
-  bool all_left = false;          ///< through a safe side: f(x, u) = {T}
+  std::vector<DomainSide> sides;  ///< unsafe sides through which the post leaves, if `left_domain`
+  bool all_left = false;          ///< the post has left through a safe side: f(x, u) = {T}
   std::vector<IndexRange> box;    ///< else f(x, u), unless blocked; ends as in ResolvedRange::inside
 };
 
-/// The posts of one cell after another: from a finite abstraction, or computed from a spec, and then at first
-/// only for the cells asked for. When that has cost as much as the whole abstraction would, all of it is
-/// computed. Whole rows are for PostReader.
+/// The posts of one cell after another: from a finite abstraction, or computed from a spec, at first for the
+/// cells asked for alone. When this has cost as much as the whole abstraction would, the whole is computed.
+/// (Whole rows are read by PostReader.)
 ///
 /// Not thread-safe.
 class CellPosts {
@@ -43,51 +43,51 @@ class CellPosts {
   /// @pre unchecked: `abstraction` outlives this object.
   explicit CellPosts(const Abstraction& abstraction)
       : grid_(&abstraction.grid), inputs_(&abstraction.inputs), whole_(&abstraction) {}
-  /// @param stored the abstraction, if it is known. @pre unchecked: all others outlive this object
+  /// @param stored the abstraction, if it is known. @pre unchecked: the other arguments outlive this object
   CellPosts(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
             std::optional<Abstraction> stored);
   CellPosts(const CellPosts&) = delete;
   CellPosts& operator=(const CellPosts&) = delete;
   ~CellPosts() = default;
 
-  /// Computes all of it now, for whoever asks for all cells.
+  /// Computes the whole abstraction now; for callers that ask for all cells.
   void prepare_all() { static_cast<void>(whole()); }
-  /// All of it.
+  /// The whole abstraction, computed if it is not there.
   [[nodiscard]] const Abstraction& whole();
 
   [[nodiscard]] const UniformGrid& grid() const { return *grid_; }
   [[nodiscard]] const InputSpace& inputs() const { return *inputs_; }
   /// The inputs that the next value of state `i` can depend on, ascending.
   [[nodiscard]] const std::vector<std::int32_t>& inputs_of(std::size_t i) const;
-  /// Safety is asked for between the samples, so that there are tubes.
+  /// Whether there are tubes, as safety is asked for between the samples.
   [[nodiscard]] bool has_tubes() const;
 
   /// Goes to a cell. @throws SpecError as build_abstraction()
   void move_to(std::int64_t cell);
   /// The cells where state `i` can be next under joint input `u`. @pre unchecked: move_to() was called
   [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t u) const;
-  /// The same before the rules for leaving the domain.
+  /// The same range before the rules for leaving the domain.
   [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t u) const;
-  /// The same of its tube: see Abstraction. @pre has_tubes()
+  /// The cells of the tube of state `i` under `u`, see Abstraction. @pre has_tubes()
   [[nodiscard]] ResolvedRange resolved_tube(std::size_t i, std::int64_t u) const;
   [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t u) const;
   /// How many entries of tables have been computed so far.
   [[nodiscard]] std::int64_t entries_built() const;
-  /// f(x, u) of the whole state. @param tubes what tubes must stay in
+  /// f(x, u) of all states. @param tubes the sets in which tubes must stay
   [[nodiscard]] CellPost post(std::int64_t u, const TubeSets& tubes) const;
 
  private:
-  /// What posts are computed from, and what of them is computed so far.
+  /// The spec from which posts are computed, and the tables computed so far.
   struct Source {
     const SystemSpec& spec;
     ThreadTeam& team;
     AffineDynamics dynamics;
     double all_entries;   ///< of the whole abstraction
-    double most_entries;  ///< to compute one by one before the whole is computed
-    /// One a state: the abstraction of a grid that has only this cell's index where the state's table does
-    /// not need more; its tables of that state alone are filled.
+    double most_entries;  ///< entries to compute one by one before the whole is computed
+    /// [state] The abstraction of a grid that has only this cell's index where the state's table does not
+    /// need more; only its tables of that state are filled.
     std::vector<Abstraction> parts;
-    std::vector<std::int64_t> place;  ///< the cell's linear index in each part
+    std::vector<std::int64_t> place;  ///< [state] the cell's linear index in the grid of its part
     double entries_built = 0;         ///< so far
     std::optional<Abstraction> whole;
   };
@@ -99,8 +99,8 @@ class CellPosts {
 
   const UniformGrid* grid_;
   const InputSpace* inputs_;
-  std::unique_ptr<Source> source_;      ///< null if there is an abstraction from the start
-  const Abstraction* whole_ = nullptr;  ///< null until there is one
+  std::unique_ptr<Source> source_;      ///< null if the abstraction was given
+  const Abstraction* whole_ = nullptr;  ///< null until the whole is known
   std::int64_t cell_ = -1;
 };
 

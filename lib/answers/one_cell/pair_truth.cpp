@@ -25,7 +25,7 @@ PairTruth::PairTruth(const ProblemSpec& spec, const Program& condition, const Ce
     of_cells_ = std::make_unique<CellTruth>(condition, allow_axes(posts.grid(), posts.inputs()));
 }
 
-/// Where a memory is asked of the whole cell.
+/// The truth where memories are asked of the whole cell.
 bool PairTruth::holds_at_cell(std::int64_t x, std::int64_t u) {
   const UniformGrid& grid = posts_.grid();
   const InputSpace& inputs = posts_.inputs();

@@ -12,16 +12,16 @@
 
 namespace coordreq {
 
-/// The truth of a condition over states and inputs, as `allow` is, at single pairs of a cell and a joint
-/// input: at the centre of the cell, but memories ask the whole of it where `safe` does. What these leave
-/// undecided is false. Scratch inside: one object a thread.
+/// The truth of a condition over states and inputs, such as `allow`, at single pairs of a cell and a joint
+/// input: at the centre of the cell, but a condition on memories is asked of the whole cell where `safe` is,
+/// and is false if undecided. One object a thread.
 class PairTruth {
  public:
-  /// @pre unchecked: all outlive this object. @param words, @param pointer for errors
+  /// @pre unchecked: the arguments outlive this object. @param words, pointer name the condition in errors
   PairTruth(const ProblemSpec& spec, const Program& condition, const CellPosts& posts, std::string words,
             std::string pointer);
 
-  /// @throws SpecError where it cannot be decided
+  /// @throws SpecError where the condition cannot be decided
   [[nodiscard]] bool holds(std::int64_t x, std::int64_t u);
 
  private:
@@ -32,7 +32,7 @@ class PairTruth {
   const CellPosts& posts_;
   std::string words_, pointer_;
   ConditionDecider decider_;
-  std::unique_ptr<CellTruth> of_cells_;  ///< where memories are asked of whole cells, instead
+  std::unique_ptr<CellTruth> of_cells_;  ///< used instead, if memories are asked of whole cells
   std::vector<Interval> fast_point_;
   std::vector<RationalInterval> point_;
 };

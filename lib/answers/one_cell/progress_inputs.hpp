@@ -14,7 +14,7 @@ namespace coordreq {
 /// a thread.
 class ProgressInputs {
  public:
-  /// Steps to the goal from a cell, INT32_MAX where it cannot be forced, below 0 outside K.
+  /// Steps to the goal from a cell; INT32_MAX if the goal cannot be forced, below 0 outside K.
   using Arrival = std::function<std::int32_t(std::int64_t cell)>;
 
   /// @pre unchecked: both outlive this object.
@@ -22,7 +22,7 @@ class ProgressInputs {
       : spec_(spec), posts_(posts), arrival_(std::move(arrival)) {}
 
   [[nodiscard]] std::int32_t arrival(std::int64_t x) const { return arrival_(x); }
-  /// The greatest arrival in f(x,u), INT32_MAX if T is there through a `safe` side, or a cell outside K.
+  /// The greatest arrival in f(x,u); INT32_MAX if a cell outside K is in it, or T by way of a `safe` side.
   /// @pre unchecked: f(x,u) is not empty
   [[nodiscard]] std::int32_t worst(std::int64_t x, std::int64_t u);
   /// P(x) of C(x), ascending, x in W \ G.
@@ -35,7 +35,7 @@ class ProgressInputs {
   const ProblemSpec& spec_;
   CellPosts& posts_;
   Arrival arrival_;
-  std::int64_t cell_ = -1;  ///< that `known_` is of
+  std::int64_t cell_ = -1;  ///< the cell of known_
   std::map<std::vector<IndexRange>, std::int32_t> known_;
 };
 

@@ -30,13 +30,13 @@ const char* phase_word(EscapePhase phase) {
   return kWords[static_cast<std::size_t>(phase)];
 }
 
-/// A risk, as the bits of one.
+/// Adds a risk, and the bits of the float32.
 void put_risk(Json& json, const std::string& key, double risk) {
   json[key] = risk;
   json[key + "_status"] = "number";
 }
 
-/// Of INT32_MAX the word differs: silence without bound, or a goal that is never reached.
+/// Adds a value of a requirement; INT32_MAX means silence without bound, or a goal that is never reached.
 void put_value(Json& json, const std::string& key, RequirementKind kind, std::int32_t value) {
   if (traits(kind).is_probability) return put_risk(json, key, double{std::bit_cast<float>(value)});
   const bool is_no_end = kind == RequirementKind::min_silence && value == DelayLayers::kOutsideInvariant;
@@ -103,12 +103,12 @@ Json counterexample_json(const ResultRequirement& result, RequirementKind kind, 
 
 namespace {
 
-/// How long the grid proves that the system stays: in the set in which agents go on as they are, or else in
-/// S.
+/// The number of steps for which the grid proves that the system stays in the set in which agents go on as
+/// they are, or else in S.
 std::int64_t proven_steps(const ResultPath& path) {
   if (path.phase.front() != EscapePhase::afterwards)
     return path.delay.front() < 0 ? path.collision_time.front() : path.delay.front();
-  // A step that nobody can take leaves, too.
+  // A step for which agents have no action leaves the set, too.
   return static_cast<std::int64_t>(path.steps()) + (path.end == EscapeEnd::no_silent_action ? 1 : 0);
 }
 
@@ -214,10 +214,12 @@ void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json&
 }
 
 MemoryNeed requirements_memory(const EngineSizes& sizes, int /*threads*/) {
-  constexpr double kBytesOfFields = 13.0 * 1024;  // measured: those of one requirement, and the file's lists
-  // What the writer keeps of objects, as far as it goes; measured with counterexamples for all of them.
+  constexpr double kBytesOfFields =
+      13.0 * 1024;  // measured: fields of one requirement, and their entries in lists of the file
+  // Memory that the HDF5 writer keeps for objects, and its limit; measured with counterexamples for all
+  // requirements.
   constexpr double kBytesOfObjects = 72.0 * 1024, kMostOfObjects = 32.0 * 1024 * 1024;
-  constexpr double kUsualSamples = 16;  // of a counterexample
+  constexpr double kUsualSamples = 16;  // samples of a counterexample
   const ProblemSpec& spec = sizes.model().spec();
   const auto count = static_cast<double>(spec.requirements.size());
   if (count == 0) return {};

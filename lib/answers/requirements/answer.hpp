@@ -20,9 +20,9 @@ struct RequirementVerdicts {
 
 /// "regions", if there are requirements: refuses a region that meets no cell.
 [[nodiscard]] std::vector<Stage> requirements_checks(const ProblemSpec& spec);
-/// Adds RequirementVerdicts, if there are any: "requirements".
+/// Adds RequirementVerdicts, if there are requirements: "requirements".
 [[nodiscard]] std::vector<Stage> requirements_stages(const ProblemSpec& spec);
-/// One requirement as the summary has it, with the story of its counterexample.
+/// One requirement for the summary, with the story of its counterexample.
 [[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
                                     const ProblemSpec& spec);
 /// The counterexample of a requirement of this kind, step by step.
@@ -33,7 +33,7 @@ struct RequirementVerdicts {
 [[nodiscard]] const char* delay_word(std::int32_t delay);
 [[nodiscard]] MemoryNeed requirements_memory(const EngineSizes& sizes, int threads);
 void summarise_requirements(const Answers& answers, Json& summary, Json& work);
-/// Fails where verdicts and counterexamples do not fit together.
+/// Fails if verdicts and counterexamples do not fit together.
 void examine_requirements(const ProblemSpec& spec, const FieldSource& source);
 void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info);
 

@@ -15,22 +15,22 @@
 namespace coordreq {
 namespace {
 
-using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // of the value, collision time, number
+using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // (of the value, collision time, number)
 
-/// The lower, the worse: not safe, not invariant, no way to the goal, then delays, or arrivals the other way
-/// round.
+/// The rank of a value, the lower the worse: not safe, not invariant, no way to the goal, then delays
+/// ascending, or arrivals descending.
 std::int64_t rank_by_definition(RequirementKind kind, std::int32_t value) {
   if (value == kNoWayToGoal) return -1;
-  if (value < 0) return INT64_MIN / 2 + value;  // a claim can be any number
+  if (value < 0) return INT64_MIN / 2 + value;  // the claim may be any number
   const bool is_limit = kind == RequirementKind::max_arrival || kind == RequirementKind::max_risk;
   return is_limit ? -std::int64_t{value} : std::int64_t{value};
 }
 
-/// What can be said of the cells of a region: of those that surely meet it, and of those that may be counted.
+/// Bounds of the verdict on a region: over cells that surely meet it, and over cells that may be counted.
 struct Bounds {
   std::uint64_t sure = 0, possible = 0;
   std::uint64_t sure_failing = 0, possible_failing = 0;
-  std::uint64_t doubted_failing = 0;  ///< not counted, but not shown to be apart
+  std::uint64_t doubted_failing = 0;  ///< not counted, but not shown not to meet the region
   Rank sure_worst{INT64_MAX, kForever, INT64_MAX};
   std::int64_t sure_least = INT64_MAX, possible_least = INT64_MAX;  ///< ranks
 
@@ -69,7 +69,7 @@ class RequirementChecker {
     check_reach();
     const bool holds = claim_.failing == 0 && !claim_.reached_side;
     if (claim_.holds != holds) wrong("the verdict does not follow from what is said");
-    // The analysis had to show that such a cell does not meet the region, which is not shown here.
+    // The analysis must have shown that doubted cells do not meet the region, which this check does not show.
     if (claim_.failing == 0 && bounds.doubted_failing > 0) tally_.add_unproven();
     if (claim_.path.has_value() != (claim_.failing > 0)) wrong("a counterexample without a failing cell");
     if (claim_.path) check_path(*claim_.path, bounds);
@@ -86,10 +86,10 @@ class RequirementChecker {
     return value < 0 ||
            (asked_.kind == RequirementKind::max_arrival ? value > asked_.steps : value < asked_.steps);
   }
-  /// The risk with these bits, and what the steps add.
+  /// Whether the risk with these bits, and the part of the rate for the steps, is above the limit.
   [[nodiscard]] bool is_too_risky(std::int32_t bits) const {
     const auto risk = double{std::bit_cast<float>(bits)};
-    return !(risk >= 0 && risk <= 1) || exact(risk) > most_risk_;  // a claim can be anything
+    return !(risk >= 0 && risk <= 1) || exact(risk) > most_risk_;  // the claim may be any number
   }
 
   [[nodiscard]] Bounds find_bounds(ThreadTeam& team) const {
@@ -139,7 +139,7 @@ class RequirementChecker {
                       least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most)));
   }
 
-  /// The first side beyond which the region reaches.
+  /// Checks the first side beyond which the region reaches.
   void check_reach() {
     const auto is_unsafe = [this](const ResultSide& side) {
       const StateSpec& state = ground_.spec->states[side.state];
@@ -168,14 +168,14 @@ class RequirementChecker {
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
     if (Rank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
-    // When the system itself leaves is an observation, but sooner than is proven it cannot.
+    // The step at which the system itself leaves is an observation, but cannot be before the proven one.
     const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
     const std::int32_t soonest = value >= 0 ? value + 1 : is_after ? 1 : collision_time_[first];
     if (path.seen > 0 && path.seen < soonest) wrong("the system itself leaves sooner than is proven");
     PathChecker(ground_, asked_).check(path, tally_);
   }
 
-  /// Of what comes after silence the file does not tell when it leaves S.
+  /// Whether there is `then`: the file does not have the steps after which it leaves S.
   [[nodiscard]] bool has_then() const { return ground_.spec->silence && ground_.spec->silence->has_then(); }
 
   const CheckGround& ground_;
@@ -186,7 +186,7 @@ class RequirementChecker {
   RegionJudge region_;
   Rational most_risk_;  ///< of `max_risk`
   Tally tally_;
-  std::int64_t number_ = -1000;  // before the steps of the counterexample
+  std::int64_t number_ = -1000;  // below the numbers of the steps of the counterexample
 };
 
 class RequirementsCheck : public AnswerCheck {

@@ -111,7 +111,7 @@ void PathChecker::check_step(std::size_t step) {
   }
 }
 
-/// What agents do in the cell at work. Those that have reached the goal go on as if there was none.
+/// The phase of agents in the present cell. Agents that have reached the goal go on as without a goal.
 EscapePhase PathChecker::phase_of(std::size_t step) const {
   if (silent_ && value_of_(cell_.at()) >= 0) return EscapePhase::silent;
   if (afterwards_) return EscapePhase::afterwards;
@@ -150,7 +150,7 @@ void PathChecker::check_approaching(std::size_t step, std::int64_t u) {
 void PathChecker::check_independent(std::size_t step, std::int64_t u) {
   if (!partition_) return wrong(step, "begins in the invariance set");
   if (!is_choice(u, cell_.admitted())) differs(step, "the joint input is not an independent choice");
-  // Of agents who see only themselves the first cell is known; then a countdown tells.
+  // Agents who see only themselves know the first cell, and then count down.
   const bool is_blind = asked_.kind == RequirementKind::min_blind_delay;
   const auto delay_of = [&](std::size_t sample) {
     const char* const path = !is_blind ? "/delay" : sample == 0 ? "/blind_delay" : "/blind_countdown";
@@ -181,7 +181,7 @@ void PathChecker::check_silent(std::size_t step, std::int64_t u) {
   if (next != delay - 1) differs(step, fmt::format("leads to silence {}, expected {}", next, delay - 1));
 }
 
-/// Which step leaves S soonest the file does not tell.
+/// Checks a step by `then`; the file does not have the times at which steps leave S.
 void PathChecker::check_afterwards(std::size_t step, std::int64_t u) {
   if (!std::ranges::binary_search(afterwards_->of(cell_.number(), cell_.admitted()), u))
     differs(step, "the joint input is not what comes after silence");
@@ -189,7 +189,7 @@ void PathChecker::check_afterwards(std::size_t step, std::int64_t u) {
     differs(step, "goes back to where what comes after silence is safe");
 }
 
-/// There agents are told nothing that they could do.
+/// Whether in a cell the rules leave agents no action.
 bool PathChecker::ends_without_rule(std::size_t cell) {
   if (!silent_) return false;
   const bool is_silent = value_of_(cell) >= 0;
@@ -205,16 +205,16 @@ void PathChecker::check_next(std::size_t step, std::int64_t u) {
     differs(step, "the next cell is not in the post");
 }
 
-/// The last action leads nowhere.
+/// Checks a last action that leads to no cell.
 void PathChecker::check_last_step(std::int64_t u) {
   const std::size_t step = path_->steps() - 1;
   if ((path_->end == EscapeEnd::not_allowed) != cell_.is_forbidden(u))
     return differs(step, cell_.is_forbidden(u) ? "the last joint input is forbidden, but the end is another"
                                                : "the last joint input is not forbidden");
   if (path_->end == EscapeEnd::not_allowed) return;
-  // Which the end tells.
+  // The end says whether there is an action.
   if (path_->end == EscapeEnd::no_common_action || path_->end == EscapeEnd::no_silent_action) return;
-  if (path_->end >= EscapeEnd::arrived) return;  // all has left through a `goal` side, or a `safe` one
+  if (path_->end >= EscapeEnd::arrived) return;  // the post has left through a `goal` side, or a `safe` one
   if (path_->end == EscapeEnd::unsafe_between_samples) {
     if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the way to the next sample is safe");
   } else if (path_->end != EscapeEnd::left_domain || !path_->left_side) {
@@ -254,7 +254,8 @@ void PathChecker::check_end() {
     wrong(path_->samples(), "a side that belongs to another end");
 }
 
-/// Seen by all it would go on, and nobody sees it.
+/// Whether a class has no action for all cells that it may be in, though agents who see everything would have
+/// one.
 bool PathChecker::ends_in_sight(std::size_t cell) const {
   return asked_.kind == RequirementKind::min_blind_delay &&
          ground_.claims->values("/blind_countdown", *partition_)[cell] == 0 &&
@@ -311,7 +312,7 @@ bool PathChecker::is_in_post(std::int64_t u, std::int64_t next) const {
   return true;
 }
 
-/// At the sample, or on the way where that counts.
+/// Whether u leads out through a side, at the sample or, if tubes count, before it.
 bool PathChecker::leaves_domain(std::int64_t u, const ResultSide& side) const {
   const GridDimension& dimension = (*ground_.grid)[side.state];
   if ((side.above ? dimension.above : dimension.below) != Outside::unsafe) return false;

@@ -17,14 +17,13 @@ namespace coordreq {
 
 /// Follows a counterexample step by step: each joint input is in IND_C of its cell (outside K: is allowed,
 /// and the collision time falls by one), each next cell is in its post, the delay falls by one down to 0, and
-/// the end is what it is said to be. With the delays and collision times of the file, which are checked
-/// elsewhere, that makes the path a shortest one. On the way to the goal likewise with arrivals and approach
-/// delays.
+/// the path ends as claimed. With the delays and collision times of the file, which other checks confirm, the
+/// path is then a shortest one. On the way to the goal arrivals and approach delays take their place.
 class PathChecker {
  public:
   PathChecker(const CheckGround& ground, const RequirementSpec& asked);
 
-  /// @param tally of one requirement; counts samples and steps
+  /// @param tally of one requirement, for samples and steps
   void check(const ResultPath& path, Tally& tally);
 
  private:
@@ -45,7 +44,7 @@ class PathChecker {
   void check_goal_end();
 
   [[nodiscard]] std::optional<std::int64_t> input_of(std::size_t step) const;
-  /// Whether each class's part of u is part of some of these joint inputs.
+  /// Whether the action of each class in u occurs in some of these joint inputs.
   [[nodiscard]] bool is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const;
   [[nodiscard]] bool is_in_post(std::int64_t u, std::int64_t next) const;
   [[nodiscard]] bool leaves_domain(std::int64_t u, const ResultSide& side) const;
@@ -53,7 +52,7 @@ class PathChecker {
   [[nodiscard]] std::size_t entry(const Posts& posts, std::size_t i, std::int64_t u) const;
   [[nodiscard]] bool is_blocked(std::int64_t u) const;
   void wrong(std::size_t number, const std::string& what);
-  /// Wrong, unless the posts may be others than those of the analysis.
+  /// Counts a difference: as wrong, or as open if posts may be others than those of the analysis.
   void differs(std::size_t number, const std::string& what);
 
   const CheckGround& ground_;
@@ -61,11 +60,11 @@ class PathChecker {
   ClaimedValues value_of_;
   const std::vector<std::uint8_t>& invariant_;
   const std::vector<std::int32_t>& collision_time_;
-  std::optional<std::size_t> partition_;     ///< none for `invariant` and `max_arrival`
+  std::optional<std::size_t> partition_;     ///< nothing for `invariant` and `max_arrival`
   std::optional<ClaimedProgress> progress_;  ///< of requirements about the goal
   std::vector<InputClass> classes_;
   std::optional<RuledChoices> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
-  CheckedCell cell_;                                 ///< at work
+  CheckedCell cell_;                                 ///< of the sample being checked
   const ResultPath* path_ = nullptr;
   Tally* tally_ = nullptr;
 };

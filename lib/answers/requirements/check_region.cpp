@@ -24,7 +24,7 @@ Program negation_of(const Program& condition) {
   return result;
 }
 
-/// Looks at one box after the other; scratch of one thread.
+/// Judges one box after the other. One object a thread.
 class BoxJudge {
  public:
   BoxJudge(const Program& where, const Program& negation, const std::vector<std::size_t>& states,
@@ -49,7 +49,7 @@ class BoxJudge {
   bool same_version_;
 };
 
-/// Where a state can be while another one is outside; without an end where it is not bounded.
+/// The values of a state while another one is outside; an end is nothing if the state is unbounded there.
 struct Extent {
   std::optional<Rational> lower, upper;
 
@@ -63,8 +63,8 @@ struct Extent {
   }
 };
 
-/// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite. What
-/// doubles leave open is asked again of the exact ends of the states that are bounded.
+/// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite. Boxes that
+/// doubles leave open are judged again with the exact ends of the bounded states.
 class CompactSearch {
  public:
   static constexpr int kMostBoxes = 4096;
@@ -121,7 +121,7 @@ class CompactSearch {
     return visit(box, compact, depth + 1);
   }
 
-  /// A variable that is a point cannot be halved; the next one may.
+  /// Goes to the next variable if this one is a point, which cannot be halved.
   bool visit_others(const std::vector<Extent>& box, const std::vector<Interval>& compact, std::size_t depth) {
     const bool all_points = std::all_of(variables_.begin(), variables_.end(),
                                         [&box](std::uint32_t slot) { return box[slot].rough().is_point(); });
@@ -146,7 +146,7 @@ Extent extent_of(const GridDimension& dimension) {
   return extent;
 }
 
-/// What may be measured beyond a side, its end included.
+/// The values that may be measured beyond a side, its end included.
 Extent outside_of(const GridDimension& dimension, bool above) {
   const Rational last = dimension.point(above ? dimension.count - 1 : 0);
   Rational reach = dimension.radius() - dimension.measurement_error;
@@ -155,7 +155,7 @@ Extent outside_of(const GridDimension& dimension, bool above) {
   return {std::nullopt, last - reach};
 }
 
-/// A few places of an extent: its ends, what lies next to them and far away.
+/// A few values of an extent: its ends, values next to them, and values far away.
 std::vector<Rational> samples_of(const Extent& extent, const GridDimension& dimension) {
   std::vector<Rational> samples;
   const Rational first = extent.lower ? *extent.lower : dimension.point(0);
@@ -168,14 +168,14 @@ std::vector<Rational> samples_of(const Extent& extent, const GridDimension& dime
   return samples;
 }
 
-/// Between the end of an extent and a multiple of the step there; a discrete state has no others.
+/// Keeps the values inside an extent; of a discrete state only its multiples of the step.
 void keep_inside(std::vector<Rational>& samples, const Extent& extent) {
   std::erase_if(samples, [&extent](const Rational& value) {
     return (extent.lower && value < *extent.lower) || (extent.upper && value > *extent.upper);
   });
 }
 
-/// Whether the region holds one of some points outside; the end of a closed face is not one of them.
+/// Whether the region holds one of some sample points outside; the end of a closed face is none of them.
 bool reaches_a_sample(const Program& where, const UniformGrid& grid, const std::vector<Extent>& extents) {
   std::vector<std::vector<Rational>> samples;
   std::vector<std::int64_t> counts;

@@ -11,20 +11,22 @@
 
 namespace coordreq {
 
-/// What is found about a cell and the region of a requirement. How hard the analysis tries to tell them apart
-/// decides which cells it counts; that it tells no more apart than are is checked.
+/// The verdict on a cell and the region of a requirement. The effort of the analysis to show that they do not
+/// meet decides which cells it counts; this check confirms that it counts all cells that meet the region.
 enum class Meeting : std::uint8_t {
-  off,      ///< they do not meet: the cell must not be counted
-  doubted,  ///< nor must this one, since the analysis tells them apart, but here that is neither shown nor
-            ///< refuted
-  perhaps,  ///< they do not, or are not told apart: the cell may be counted, if another version did
-  counted,  ///< they have a point in common, or are not told apart: the cell must be counted
+  off,      ///< cell and region do not meet: the cell must not be counted
+  doubted,  ///< it must not be counted, since the analysis has shown that they do not meet; this check
+            ///< neither shows nor refutes it
+  perhaps,  ///< they do not meet, or it is not shown whether: another version may have counted the cell
+  counted,  ///< they meet, or it is not shown that they do not: the cell must be counted
 };
 
-/// All cells and one region (contract, section 2, `where`), remembered for the states that `where` mentions.
+/// Judges cells against one region (contract, section 2, `where`); verdicts are remembered by the states that
+/// `where` mentions.
 class RegionJudge {
  public:
-  /// @param same_version the file is written by this version of the program, which tells apart what it told
+  /// @param same_version the file was written by this version of the program, which shows the same cells not
+  ///   to meet
   RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid, bool same_version,
               ThreadTeam& team);
 
@@ -36,16 +38,16 @@ class RegionJudge {
 
  private:
   const UniformGrid* grid_;
-  std::vector<std::size_t> states_;  ///< mentioned
-  std::vector<Meeting> meetings_;    ///< row-major over them
+  std::vector<std::size_t> states_;  ///< that `where` mentions
+  std::vector<Meeting> meetings_;    ///< row-major over states_
 };
 
-/// What is found about a region and what lies beyond one side of the domain.
+/// The verdict on a region and the states beyond one side of the domain.
 enum class Reach : std::uint8_t {
-  never,    ///< natural interval evaluation over all that lies there shows that it does not reach there
-  not_far,  ///< it does not, but that takes more to see
+  never,    ///< natural interval evaluation over all states there shows that the region does not reach them
+  not_far,  ///< it does not reach them, but natural evaluation does not show it
   open,     ///< neither shown nor refuted
-  reached,  ///< a point there is in the region
+  reached,  ///< a state there is in the region
 };
 
 /// @pre the side is `unsafe`

@@ -18,14 +18,14 @@ namespace {
 using Start = std::optional<std::vector<Rational>>;
 
 constexpr std::int64_t kLeast = EscapeSteps::kLeast;
-/// At a joint input, by which the system itself could go on.
+/// The most looks at joint inputs by which the system itself could go on.
 constexpr std::int64_t kMostLooks = 200'000;
 
 std::int64_t level_of(const LevelMap& levels, std::int64_t cell) {
   return EscapeSteps::level_of(levels, cell);
 }
 
-/// What agents do on the way out.
+/// Finds the steps of agents on the way out.
 class EscapeFinder : public EscapeRun {
  public:
   explicit EscapeFinder(const EscapeSets& sets)
@@ -83,7 +83,7 @@ class EscapeFinder : public EscapeRun {
     return sets;
   }
 
-  /// Of a cell in K.
+  /// The arrival of a cell in K.
   [[nodiscard]] std::int32_t arrival(std::int64_t y) const {
     return sets_.invariance->invariant.test(y) ? arrival_at(sets_.goal->nearness, y) : -1;
   }
@@ -109,7 +109,7 @@ class EscapeFinder : public EscapeRun {
       return false;
     }
     const bool is_given = ground_.spec.controller.synthesis == Synthesis::given;
-    std::optional<std::pair<std::int32_t, std::int64_t>> best;  // worst arrival, joint input
+    std::optional<std::pair<std::int32_t, std::int64_t>> best;  // (worst arrival, joint input)
     for (const std::int64_t u : inputs_.of(cell)) {
       const std::int32_t own = progress_.worst(cell, u);
       if (!best || (is_given ? own > best->first : own < best->first)) best = {own, u};
@@ -121,7 +121,7 @@ class EscapeFinder : public EscapeRun {
     const std::int64_t next =
         steps_.next_cell(cell, post, u, [&, worst = worst](std::int64_t y) { return arrival(y) == worst; });
     path_.end = worst == INT32_MAX ? EscapeEnd::never_arrives : EscapeEnd::arrived;
-    if (next < 0) return false;  // all has left
+    if (next < 0) return false;  // the post has left the domain
     const bool comes_again = std::find(path_.cells.begin(), path_.cells.end(), next) != path_.cells.end();
     path_.cells.push_back(next);
     return !comes_again;
@@ -181,7 +181,7 @@ class EscapeFinder : public EscapeRun {
     }
     const std::vector<bool> choices = independent(inputs_.of(cell));
     const auto is_choice = [&](std::int64_t u) { return choices[static_cast<std::size_t>(u)]; };
-    // From the last layer that holds the cell the way out of K is a single step.
+    // If the cell is in its last layer, the way out of K is a single step.
     const bool is_last = layers == 1;
     const LevelMap& levels = is_last ? collision_time_ : next;
     return take(find(levels, is_last ? kLeast : layers - 1, is_choice), levels, EscapePhase::independent);
@@ -205,7 +205,7 @@ class EscapeFinder : public EscapeRun {
                       EscapePhase::afterwards);
   }
 
-  /// A step of agents who have rules.
+  /// One step of agents who act by rules.
   bool take_ruled(const SilentInputs::Numbers& choices, std::int64_t target, const LevelMap& levels,
                   EscapePhase phase) {
     if (choices.empty()) {
@@ -229,7 +229,7 @@ class EscapeFinder : public EscapeRun {
     return steps_.find(path_.cells.back(), levels, target, is_candidate, number());
   }
 
-  /// Goes the step. @returns false if the path ends with it
+  /// Adds a step to the path. @returns false if the path ends with it
   bool take(const std::optional<EscapeChoice>& choice, const LevelMap& levels, EscapePhase phase) {
     if (!choice) {
       path_.end = EscapeEnd::no_allowed_action;
@@ -256,7 +256,7 @@ class EscapeFinder : public EscapeRun {
   EscapeSteps steps_;
 };
 
-/// Of equal steps from a cell on which to take.
+/// Finds which of equal steps to take from a cell on.
 EscapeSearch::Choices find_choices(std::int64_t cell, EscapeSearch& search, EscapeRun& run) {
   run.begin_way(cell);
   const FollowedPlace here = *run.place();
@@ -299,7 +299,7 @@ std::int32_t follow_escape(const EscapeSets& sets, std::int64_t cell, const Star
     const bool is_inside = *first == EscapePhase::independent || *first == EscapePhase::silent;
     const bool is_kept = is_inside ? reached.is_inside : reached.is_safe;
     if (!is_kept || path.end == EscapeEnd::not_allowed) return steps;
-    if (!is_inside && reached.is_inside) break;  // where what they do outside keeps it
+    if (!is_inside && reached.is_inside) break;  // the actions outside lead it back inside
     if (reached.place.kind != Location::Kind::cell) break;
     run.advance();
     cell = reached.place.cell;

@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-/// Where the parts of an escape go.
+/// Writes an escape, sample by sample and step by step, to a result.
 struct EscapeWriter {
   const Ground& ground;
   const CellRequirement& asked;
@@ -22,7 +22,7 @@ struct EscapeWriter {
     }
     path.cell.push_back(static_cast<std::uint64_t>(number));
     path.state.insert(path.state.end(), state.begin(), state.end());
-    // Of the process that owns the cell.
+    // The values are those of the process that owns the cell.
     const RowShare* const share = asked.collision_time->share();
     const bool is_own = share == nullptr || share->owner(cell / grid.row_length()) == share->ranks().rank();
     const std::int64_t own_time = is_own ? asked.collision_time->at(cell) : 0;

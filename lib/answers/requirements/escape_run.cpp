@@ -68,13 +68,13 @@ bool EscapeRun::step_alone(std::int64_t number) {
   return goes_on_ = step_of_owner();
 }
 
-/// In K, or of silence in K'.
+/// Whether the cell is in K, or for silence in K'.
 bool EscapeRun::is_inside(std::int64_t cell) const {
   return sets_.silence_of == nullptr ? sets_.invariance->invariant.test(cell)
                                      : EscapeSteps::level_of(*sets_.silence_of, cell) > 0;
 }
 
-/// A step of the way, and where that leads the system itself.
+/// Takes a step of the way, and finds where it leads the system itself. @returns whether the way goes on
 bool EscapeRun::step_and_look() {
   const std::int64_t cell = path_.cells.back();
   const std::size_t steps = path_.joint_inputs.size();
@@ -87,7 +87,7 @@ bool EscapeRun::step_and_look() {
   posts_.move_to(cell);
   const CellPost post = posts_.post(path_.joint_inputs.back(), tubes_);
   if (is_cell && !EscapeSteps::holds(posts_.grid(), post, reached_.place.cell)) {
-    reached_ = {};  // nothing may be known of that cell
+    reached_ = {};  // the levels of its cell may not be known
     return goes_on;
   }
   const bool has_left = reached_.place.kind == Location::Kind::left_safely;
@@ -96,24 +96,24 @@ bool EscapeRun::step_and_look() {
   return goes_on;
 }
 
-/// The step from the last cell, which the process that owns the cell finds for all.
+/// Takes the step from the last cell, which the owner of the cell finds for all processes.
 bool EscapeRun::step_of_owner() {
   const RowShare* const share = ground_.shared_rows();
   if (share == nullptr) return step_and_look();
   Ranks& ranks = share->ranks();
   const int owner = share->owner(path_.cells.back() / posts_.grid().row_length());
   if (owner != ranks.rank()) {
-    const EscapeNews news = read_escape_message(ranks.receive(owner), path_);
-    way_ = static_cast<Way>(news.way);
-    reached_ = news.reached;
-    has_more_ = news.has_more;
-    return news.goes_on;
+    const EscapeProgress progress = read_escape_message(ranks.receive(owner), path_);
+    way_ = static_cast<Way>(progress.way);
+    reached_ = progress.reached;
+    has_more_ = progress.has_more;
+    return progress.goes_on;
   }
   const std::size_t cells = path_.cells.size(), inputs = path_.joint_inputs.size();
   const bool goes_on = step_and_look();
-  const EscapeNews news{
+  const EscapeProgress progress{
       .goes_on = goes_on, .has_more = has_more_, .way = static_cast<std::int64_t>(way_), .reached = reached_};
-  const Bytes message = escape_message(news, path_, inputs, cells);
+  const Bytes message = escape_message(progress, path_, inputs, cells);
   for (int other = 0; other < ranks.count(); ++other) {
     if (other != owner) ranks.send(other, message);
   }

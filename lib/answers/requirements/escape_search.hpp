@@ -10,31 +10,31 @@
 
 namespace coordreq {
 
-/// A place on an escape that the system itself has followed so far.
+/// A state of an escape that the system itself has followed so far.
 struct FollowedPlace {
   std::int64_t cell = 0;
-  std::int64_t way = 0;         ///< how the escape goes on
+  std::int64_t way = 0;         ///< how the escape goes on: EscapeRun::Way
   std::vector<Rational> state;  ///< of the system itself
-  std::size_t steps = 0;        ///< from the start
-  std::int64_t number = 0;      ///< of the joint input to go on with, among those that are equal
+  std::size_t steps = 0;        ///< number of steps from the start
+  std::int64_t number = 0;      ///< of the joint input to take next, among equal ones
 };
 
-/// Of equally short escapes the one that the system itself follows longest, of these the one of lowest
-/// numbers: depth first over the joint inputs of equal steps that it can follow. A place that was met before
-/// is not looked at again. Once the work is done the longest so far is taken, which is never shorter than the
-/// one found step by step.
+/// Searches, of equally short escapes, the one that the system itself follows longest, of these the one of
+/// lowest numbers: depth first over the joint inputs of equal steps that the system can follow. A place that
+/// was met before is not visited again. When the allowed work is used up the longest escape so far is taken,
+/// which is never shorter than one found step by step.
 class EscapeSearch {
  public:
-  /// Of equal steps, in order, which joint input is taken; those after the last one are of no choice.
+  /// [step] Which of the equal joint inputs is taken; in steps after these, the first one.
   using Choices = std::vector<std::int64_t>;
 
-  /// @param work looks at a joint input that all searches of this object may take
+  /// @param work number of looks at joint inputs that all searches of this object may take
   explicit EscapeSearch(std::int64_t work) : work_(work) {}
 
-  /// @param walk has, of an escape that begins where it is:
-  ///   place(), where the system itself is, nothing if it is followed no longer; go_to(place);
-  ///   step(number), one more step: the looks it took; has_more(), whether there are equal ones behind that
-  ///   number; is_whole(), whether it has been followed to its end
+  /// @param walk an escape from its present place, with these functions: place(), where the system itself is,
+  ///   nothing if it is followed no longer; go_to(place); step(number), one more step: the looks it took;
+  ///   has_more(), whether there are equal ones behind that number; is_whole(), whether it has been followed
+  ///   to its end
   /// @pre unchecked: the system itself is followed.
   template <class Walk>
   [[nodiscard]] Choices find(Walk& walk) {

@@ -14,7 +14,7 @@ std::optional<EscapeChoice> EscapeSteps::find(std::int64_t cell, const LevelMap&
                                               const IsWanted& is_candidate, std::int64_t number) {
   Known known;
   std::optional<EscapeChoice> best;
-  std::int64_t followed = 0;  // so far, of those that are as good
+  std::int64_t followed = 0;  // number so far of equal candidates that it can follow
   posts_.move_to(cell);
   for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
     if (!is_candidate(u)) continue;
@@ -36,7 +36,7 @@ std::optional<EscapeChoice> EscapeSteps::find(std::int64_t cell, const LevelMap&
   return best;
 }
 
-/// 0 for a post that is blocked. @param known of boxes that were asked for before
+/// The least level of a post; 0 if it is blocked. @param known levels of boxes looked at before
 std::int64_t EscapeSteps::worst_level(const CellPost& post, const LevelMap& levels, Known& known) const {
   if (post.blocked != CellPost::Blocked::no) return 0;
   if (post.all_left) return INT64_MAX;
@@ -65,8 +65,8 @@ bool EscapeSteps::holds(const UniformGrid& grid, const CellPost& post, std::int6
   return true;
 }
 
-/// The cell of a post in which the system itself is after the step; negative: it is in none, or lost from
-/// sight.
+/// The cell of the system itself after the step, if it is in the post; negative: it is not, or is no longer
+/// followed.
 std::int64_t EscapeSteps::real_cell(std::int64_t cell, const CellPost& post, std::int64_t u) {
   if (!real_.is_followed() || post.all_left) return -1;
   const RealRun::Place place = real_.after(cell, u);

@@ -15,20 +15,20 @@
 
 namespace coordreq {
 
-/// A joint input, where it leads to, and the level of the worst cell there.
+/// A joint input, its post, and the level of the worst cell in the post.
 struct EscapeChoice {
   std::int64_t joint_input = 0;
   std::int64_t level = INT64_MAX;
   CellPost post;
   bool is_forbidden = false;
-  bool has_more = false;  ///< there are equal ones behind it that the system itself can follow, too
+  bool has_more = false;  ///< there are later equal joint inputs that the system itself can follow, too
 };
 
 /// Finds the steps of an escape, one cell after the other.
 class EscapeSteps {
  public:
   using IsWanted = std::function<bool(std::int64_t)>;  ///< of a joint input, of a cell
-  /// Instead of a level to look for: the least there is.
+  /// Instead of a level to look for: the least level that occurs.
   static constexpr std::int64_t kLeast = -1;
 
   /// @pre unchecked: all outlive this object.
@@ -38,17 +38,17 @@ class EscapeSteps {
   /// The level of a cell, INT64_MAX if it is never lost.
   [[nodiscard]] static std::int64_t level_of(const LevelMap& levels, std::int64_t cell);
 
-  /// A joint input of the candidates whose worst successor has the level that is looked for: of those with
-  /// which the system itself comes to that level, too, the one of this number; if there is none the lowest.
+  /// A candidate whose worst successor has the wanted level: of those with which the system itself reaches
+  /// that level, too, number `number`; if there are none, the lowest-numbered candidate.
   [[nodiscard]] std::optional<EscapeChoice> find(std::int64_t cell, const LevelMap& levels,
                                                  std::int64_t target, const IsWanted& is_candidate,
                                                  std::int64_t number);
-  /// The cell of a post that is wanted: the one in which the system itself is then, else the lowest-numbered;
+  /// A wanted cell of a post: the cell of the system itself after the step, else the lowest-numbered;
   /// negative: there is none.
   [[nodiscard]] std::int64_t next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,
                                        const IsWanted& is_wanted);
-  /// Whether a cell is in a post. (The system itself may miss it by a rounding, where floating point follows
-  /// it.)
+  /// Whether a cell is in a post. (Where the system itself is followed in floating point it may miss its post
+  /// by a rounding.)
   [[nodiscard]] static bool holds(const UniformGrid& grid, const CellPost& post, std::int64_t cell);
   /// The number of a cell in the grid of the spec.
   [[nodiscard]] std::int64_t number_of(std::int64_t cell) const;

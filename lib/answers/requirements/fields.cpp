@@ -59,7 +59,8 @@ std::vector<FieldFlag> delay_flags(const ProblemSpec& spec) {
   return result;
 }
 
-/// Delays are those of safety, approach delays or arrivals, as the requirement asks.
+/// The least value of a delay in a requirement: delays are those of safety, approach delays or arrivals, by
+/// its kind.
 std::int64_t least_delay(const ProblemSpec& spec) {
   return spec.goal ? kOutsideWinning : DelayLayers::kOutsideSafe;
 }
@@ -130,7 +131,7 @@ void add_path(Fields& fields, const ProblemSpec& spec, std::size_t requirement) 
   const std::uint64_t cells = cell_count(spec);
   const std::string sample = path("sample");
   const std::string step = path("step");
-  // Along the layers every cell once, and once more along the collision times.
+  // A way visits every cell at most once by layers, and once by collision times.
   Field samples = number_scale(sample, kSection, 1, 2 * cells + 2, "number of the sample");
   Field steps = number_scale(step, kSection, 1, 2 * cells + 2, "number of the step");
   samples.scale->is_optional = steps.scale->is_optional = true;
@@ -151,7 +152,7 @@ void add_path(Fields& fields, const ProblemSpec& spec, std::size_t requirement) 
                         phases.back().value, phases));
 }
 
-/// One value of each requirement.
+/// Adds a field with one value for each requirement.
 template <class Value, class Get>
 void add_of_each(FieldValues& values, const std::vector<ResultRequirement>& requirements,
                  const std::string& name, ElementType type, const Get& get) {
@@ -203,7 +204,7 @@ void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, Field
   add_of_each<std::uint64_t>(values, requirements, "cells", ElementType::uint64, [](R r) { return r.cells; });
   add_of_each<std::uint64_t>(values, requirements, "failing", ElementType::uint64,
                              [](R r) { return r.failing; });
-  // Of risks there are no delays: 0.
+  // A requirement about risk has no delay: 0.
   add_of_each<std::int32_t>(values, requirements, "least_delay", ElementType::int32,
                             [](R r) { return r.is_risk ? 0 : r.least_delay; });
   if (answers.ground.spec.risk) {

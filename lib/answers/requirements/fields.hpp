@@ -11,7 +11,7 @@ namespace coordreq {
 /// the requirements.
 [[nodiscard]] Fields requirement_fields(const ProblemSpec& spec);
 
-/// What was found for them.
+/// Fills in the values of these fields.
 void fill_requirement_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -114,7 +114,7 @@ class Judge {
     return path;
   }
 
-  /// Of safety that all agents see alike.
+  /// Whether the system itself is followed: for requirements about safety in which agents see everything.
   [[nodiscard]] static bool is_followed(RequirementKind kind, const ResultPath& path) {
     const bool is_alike = kind == RequirementKind::min_delay || kind == RequirementKind::invariant ||
                           kind == RequirementKind::min_silence;
@@ -126,7 +126,7 @@ class Judge {
   const Controller& controller_;
   ThreadTeam& team_;
   UniformGrid grid_;                         ///< the spec's
-  CellRequirement asked_;                    ///< at work
+  CellRequirement asked_;                    ///< the requirement being judged
   std::vector<std::int64_t> number_stride_;  ///< [dimension of the engine]
 };
 

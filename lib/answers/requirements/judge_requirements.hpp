@@ -10,9 +10,9 @@ namespace coordreq {
 /// @throws SpecError naming the first requirement whose region meets no cell
 void check_regions(const ProblemSpec& spec, ThreadTeam& team);
 
-/// The verdict on each requirement of the spec: it holds if all cells that may meet its region do what it
-/// asks and the region cannot reach beyond an unsafe side of the domain. With it the worst cell's way out of
-/// the safe set, if a cell fails.
+/// The verdict on each requirement of the spec: it holds if all cells that may meet its region fulfil it and
+/// the region cannot reach beyond an unsafe side of the domain. If a cell fails, with the escape of the worst
+/// cell.
 [[nodiscard]] std::vector<ResultRequirement> judge_requirements(const Answers& answers, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -11,7 +11,7 @@
 namespace coordreq {
 namespace {
 
-/// Numbers of exact states grow from step to step; this many bits are more than any story has a use for.
+/// Exact numbers grow from step to step: shortens those with more bits than a story needs.
 Rational shortened(const Rational& value) {
   constexpr std::size_t kBits = 4096;
   const bool is_long =
@@ -52,7 +52,7 @@ void RealRun::start(std::int64_t cell) {
   start(std::move(state));
 }
 
-/// Of a state that no memory keeps.
+/// The next value of a state that is no memory.
 std::optional<Rational> RealRun::next(std::size_t state, std::int64_t u) {
   const InputSpace& inputs = abstraction_.inputs;
   std::int64_t key = 0;

@@ -13,37 +13,38 @@
 
 namespace coordreq {
 
-/// The system itself, followed step by step beside what the abstraction has of it: with every disturbance in
-/// the middle of its range, and nothing measured wrongly.
+/// The system itself, followed step by step beside the abstraction: with every disturbance in the middle of
+/// its range, and without measurement errors.
 ///
-/// Of several processes each follows it; what memories keep only the one that owns the cell knows.
+/// Each of several processes follows it; only the owner of a cell can evaluate memories there.
 class RealRun {
  public:
-  /// @pre unchecked: both outlive this object. @param abstraction its dimensions in any order
+  /// @pre unchecked: the arguments outlive this object. @param abstraction its dimensions in any order
   RealRun(const SystemSpec& spec, const Abstraction& abstraction);
 
-  /// From now on it is here. @param state by state of the spec
+  /// Starts at a state. @param state [state of the spec]
   void start(std::vector<Rational> state);
-  /// The same at the centre of a cell.
+  /// Starts at the centre of a cell.
   void start(std::int64_t cell);
-  /// It is followed no longer.
+  /// Ends following it.
   void stop() { state_.reset(); }
   [[nodiscard]] bool is_followed() const { return state_.has_value(); }
-  /// Where it is. @pre it is followed
+  /// Its present state. @pre it is followed
   [[nodiscard]] const std::vector<Rational>& state() const {
     REQUIRES(is_followed());
     return *state_;
   }
 
-  /// Where it is after a step.
+  /// Its place after a step.
   struct Place {
     bool is_known = false;
     Location::Kind kind = Location::Kind::beyond;
-    std::int64_t cell = -1;  ///< unless `kind` is another
+    std::int64_t cell = -1;  ///< if `kind` is a cell
   };
-  /// After a step under `u` from where it is, in a cell that this process holds. @pre it is followed
+  /// Its place after a step under `u` from the present state, in a cell that this process holds. @pre it is
+  /// followed
   [[nodiscard]] Place after(std::int64_t cell, std::int64_t u);
-  /// Takes the step. @param place after() of it, from whoever knows that
+  /// Takes a step. @param place after() of the process that holds the cell
   void advance(std::int64_t u, const Place& place);
 
  private:
@@ -55,7 +56,7 @@ class RealRun {
   PointDynamics dynamics_;
   std::optional<std::vector<Rational>> state_;
   std::vector<Rational> slots_;
-  /// [state], by the number of the inputs that it depends on, from where it is.
+  /// [state] Its next values from the present state, by the number of the inputs on which they depend.
   std::vector<std::unordered_map<std::int64_t, std::optional<Rational>>> known_;
 };
 

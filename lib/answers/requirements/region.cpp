@@ -55,9 +55,9 @@ double cut_of(const Extent& extent) {
   return range.lower / 2 + range.upper / 2;
 }
 
-/// Whether a condition may hold somewhere in an unbounded box. Natural evaluation in doubles finds out most
-/// of it; whatever is said of bounded states alone is decided exactly, for the region may end just where the
-/// domain does.
+/// Whether a condition may hold somewhere in an unbounded box. Natural evaluation in doubles decides most of
+/// it; conditions on bounded states alone are decided exactly, for the region may end just where the domain
+/// does.
 class UnboundedSearch {
  public:
   static constexpr int kMostBoxes = 512;

@@ -13,23 +13,23 @@
 namespace coordreq {
 
 /// The cells that may be measured while the state is in the region: closed cells, widened by the measurement
-/// errors and without what lies beyond a `stop` limit, in which `where` holds at some point, or may, or is
-/// perhaps not defined. A cell that ends at the seam of a periodic state ends in front of it, as the seam is
-/// the lower end of the period. Errs towards more cells.
-/// Cost: most of the grid is told from the region in large blocks, the cells at its border one by one.
+/// errors and cut off at `stop` limits, in which `where` holds at some point, or may hold, or is perhaps not
+/// defined. A cell that ends at the seam of a periodic state ends in front of it, as the seam is the lower
+/// end of the period. Errs towards more cells. Cost: large boxes of cells are decided at once, cells at the
+/// border of the region one by one.
 /// @pre unchecked: `where` is over states only.
-/// @param share then those in own rows at least; null: all
+/// @param share then at least the cells in own rows; null: all cells
 [[nodiscard]] CellSet cells_of_region(const Program& where, const UniformGrid& grid, ThreadTeam& team,
                                       const RowShare* share = nullptr);
 
-/// The first side (in the order of the dimensions, below before above) of those beyond which the region may
-/// reach; nothing if it cannot leave the domain.
+/// The first side (in the order of the dimensions, below before above) beyond which the region may reach;
+/// nothing if it cannot leave the domain.
 ///
 /// Only `unsafe` sides count: beyond a `safe` one the system is safe for ever, beyond a `saturate` or `stop`
-/// limit it never is at a sample, and a periodic state has no outside. What may be measured beyond the outer
-/// face counts, and so does touching it; the next value of a discrete state is a whole step away. Conditions
-/// are decided by interval evaluation over the whole outside, exactly at its ends, which is cut into parts
-/// where that is too coarse; a condition that stays undecided counts as true.
+/// limit it never is at a sample, and a periodic state has no outside. States that may be measured beyond the
+/// outer face count, and so does the face itself; the next value of a discrete state is a whole step away.
+/// Conditions are decided by interval evaluation over the whole outside, exactly at its ends, and over pieces
+/// of it where that is too coarse; a condition that stays undecided counts as true.
 [[nodiscard]] std::optional<DomainSide> side_reached(const Program& where, const UniformGrid& grid);
 
 }  // namespace coordreq

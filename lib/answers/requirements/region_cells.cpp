@@ -14,15 +14,15 @@ RationalInterval exact_range(const Piece& piece) {
   return {.lower = piece.lower, .upper = piece.upper};
 }
 
-/// What a state can be where the cell is measured. One that ends at a seam ends in front of it: the seam is
-/// the lower end of the period, and of the next cell.
+/// The values that a state can have when cell k is measured. A piece that ends at a seam does not hold the
+/// seam, which is the lower end of the period, and of the next cell.
 std::vector<Piece> measured_pieces(const GridDimension& dimension, std::int64_t k) {
   std::vector<Piece> parts = pieces(dimension, k);
   if (parts.size() > 1 && parts.back().lower == parts.back().upper) parts.pop_back();
   return parts;
 }
 
-/// What the states that `where` mentions can be in each of their cells.
+/// The values of the states that `where` mentions, for each of their indices.
 struct Ranges {
   std::vector<std::uint32_t> states;                              // mentioned, ascending
   std::vector<std::size_t> dimension;                             // [mentioned] of the grid
@@ -45,10 +45,10 @@ struct Ranges {
   }
 };
 
-/// Finds the cells of one slab of rows after the other; scratch of one thread.
+/// Finds the cells of one slab of rows after the other. One object a thread.
 class RegionFinder {
  public:
-  /// @param rows what is elsewhere need not be found
+  /// @param rows cells in other rows need not be found
   RegionFinder(const Program& where, const UniformGrid& grid, const Ranges& ranges, RowShare::Range rows,
                CellSet& cells)
       : grid_(grid),
@@ -60,8 +60,8 @@ class RegionFinder {
         box_(grid.size()),
         exact_box_(grid.size()) {}
 
-  /// Looks at a block of cells. What natural evaluation decides for all of it is decided for its cells,
-  /// because narrower ranges never evaluate to wider ones.
+  /// Decides a box of cells, halving it where needed. What natural evaluation decides for the box holds for
+  /// its cells, because narrower ranges never evaluate to wider ones.
   void visit(std::vector<IndexRange>& block) {
     if (!meets_rows(block)) return;
     for (std::size_t s = 0; s < ranges_.states.size(); ++s) set_hull(s, block[ranges_.dimension[s]]);
@@ -102,7 +102,7 @@ class RegionFinder {
     box_[ranges_.states[s]] = all;
   }
 
-  /// Of the dimensions mentioned; 0 if none is.
+  /// The longest side of a box in the dimensions that `where` mentions; 0 if there are none.
   [[nodiscard]] std::size_t longest_side(const std::vector<IndexRange>& block) const {
     std::size_t longest = ranges_.dimension.empty() ? 0 : ranges_.dimension.front();
     for (const std::size_t i : ranges_.dimension) {
@@ -111,7 +111,7 @@ class RegionFinder {
     return longest;
   }
 
-  /// Of a block with one index of each state mentioned, piece by piece.
+  /// Decides a box with one index of each state that `where` mentions, piece by piece.
   [[nodiscard]] bool may_meet(const std::vector<IndexRange>& block) {
     std::vector<const std::vector<RationalInterval>*> parts;
     std::vector<std::int64_t> counts;
@@ -132,7 +132,7 @@ class RegionFinder {
     return false;
   }
 
-  /// Puts in all cells of the block. @param row of the indices chosen in the dimensions before i
+  /// Adds all cells of a box. @param row of the indices chosen in the dimensions before i
   void fill(const std::vector<IndexRange>& block, std::size_t i, std::int64_t row) {
     if (i + 1 == block.size()) {
       set_bits(cells_.row(row), block[i].first, block[i].last + 1);

@@ -13,13 +13,13 @@
 namespace coordreq {
 namespace {
 
-/// What cells are compared by; the least is the worst.
+/// The key by which cells are compared; the least is the worst.
 using Rank = std::tuple<std::int64_t, std::int64_t, std::int64_t>;  // of the value, collision time, number
 
-/// What one thread has found.
+/// The verdict of one thread.
 struct Part {
   CellVerdict verdict;
-  std::int64_t least_rank = INT64_MAX;  ///< of all cells
+  std::int64_t least_rank = INT64_MAX;  ///< of all cells of the region
   Rank worst;
 };
 
@@ -29,7 +29,7 @@ std::int64_t number_of(const UniformGrid& grid, std::int64_t cell, const std::ve
   return sum;
 }
 
-/// Makes what one process has found what all have.
+/// Joins the verdicts of all processes. Together.
 void join(Ranks& ranks, Part& part) {
   const auto least = [&ranks](std::int64_t value) { return ~ranks.greatest(~value); };
   part.verdict.cells = ranks.sum(part.verdict.cells);
@@ -38,7 +38,7 @@ void join(Ranks& ranks, Part& part) {
   part.least_rank = least(own_rank);
   part.verdict.worst_value = static_cast<std::int32_t>(
       ranks.greatest(own_rank == part.least_rank ? std::int64_t{part.verdict.worst_value} : INT64_MIN));
-  // The worst cell: of those with the least rank those of the least collision time, and so on.
+  // The worst cell: the least rank, then the least collision time, then the least number.
   const auto [rank, time, number] = part.worst;
   bool is_worst = part.verdict.worst.has_value();
   for (const std::int64_t own : {rank, time, number}) {

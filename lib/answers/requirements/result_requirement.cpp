@@ -37,7 +37,7 @@ ResultPath read_path(const FieldSource& source, std::size_t requirement) {
   return result;
 }
 
-/// What the file says of the greatest risk of a region.
+/// Reads the greatest risk of a region.
 void take_risk(const RequirementSpec& asked, double risk, const FieldSource& source,
                ResultRequirement& requirement) {
   const auto number = static_cast<float>(risk);

@@ -6,11 +6,12 @@
 
 namespace coordreq {
 
-/// The bits of the greatest float32 that a requirement `max_risk` lets a risk have: with what its steps add
-/// at the rate it is at most what is asked for, exactly. Below 0: there is none.
+/// The bits of the greatest float32 that fulfils a requirement `max_risk`: with the part of the rate for its
+/// steps it is at most the limit, exactly. Below 0: there is none.
 [[nodiscard]] std::int32_t greatest_risk_bits(const RequirementSpec& requirement, double rate);
 
-/// What is compared for a risk of these bits: that and what the steps add at the rate, rounded up; at most 1.
+/// The risk of these bits with the part of the rate for the steps, rounded up, at most 1: this is compared
+/// with the limit.
 [[nodiscard]] double compared_risk(const RequirementSpec& requirement, std::int32_t bits, double rate);
 
 }  // namespace coordreq

@@ -18,7 +18,7 @@
 namespace coordreq {
 namespace {
 
-/// Risks that cells can have: outside K certainty.
+/// Whether risks are possible ones: probabilities, and outside K certainty.
 bool are_possible(const RiskRows& risks, const CellSet& invariant, const RowShare* share) {
   bool possible = true;
   for (const RowShare::Range run : held_rows(share, risks.rows())) {
@@ -34,7 +34,7 @@ bool are_possible(const RiskRows& risks, const CellSet& invariant, const RowShar
   return possible;
 }
 
-/// The state after so many steps; the rate is told when there are no more.
+/// Loads the state after some steps; after the last one there is a rate, too.
 void load_state(Archive& archive, const Ground& ground, const CellSet& invariant, RiskState& state,
                 double& rate) {
   archive.number(state.steps);
@@ -55,7 +55,7 @@ void save_state(Archive& archive, const RowShare* share, std::int64_t steps, dou
   for (const NumberRows& risks : state) serialise_rows(archive, share, risks);
 }
 
-/// What agents do who are told it, in modes of more than one class.
+/// Projections by rules of silent agents, for modes of more than one class.
 class SilentModes {
  public:
   SilentModes(const Answers& answers, ThreadTeam& team) {
@@ -190,7 +190,7 @@ MemoryNeed risk_memory(const EngineSizes& sizes, int threads) {
   MemoryNeed need{.kept = modes * kFloat * sizes.lanes(), .array = modes * kFloat * sizes.cells()};
   need.work = std::max(expected * kFloat * sizes.levels() + sizes.readers(threads, kFloat),
                        kDouble * sizes.levels() + sizes.readers(threads, kDouble));
-  need.work += (modes + expected) * sizes.rows();  // which rows have changed
+  need.work += (modes + expected) * sizes.rows();  // flags for rows that have changed
   for (const PartitionSpec* partition : network_partitions(*spec.network)) {
     const bool is_one = spec.risk->is_safest && partition->classes.size() == 1;
     const std::vector<InputClass> classes = is_one ? single_classes(sizes.model().inputs())

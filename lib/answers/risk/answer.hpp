@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// What was found, and what it comes to in each mode.
+/// The risk, and its figures in each mode.
 struct RiskAnswer {
   Risk risk;
   std::vector<RiskFigures> figures;  ///< [mode]
@@ -21,7 +21,7 @@ struct RiskAnswer {
 [[nodiscard]] std::vector<Stage> risk_stages(const ProblemSpec& spec);
 [[nodiscard]] MemoryNeed risk_memory(const EngineSizes& sizes, int threads);
 void summarise_risk(const Answers& answers, Json& summary, Json& work);
-/// Fails where the rate is none.
+/// Fails if the rate is no probability.
 void examine_risk(const ProblemSpec& spec, const FieldSource& source);
 void tell_risk(const ProblemSpec& spec, const FieldSource& source, Json& info);
 

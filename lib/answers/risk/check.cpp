@@ -21,13 +21,13 @@ constexpr char kRisk[] = "/risk";
 struct Successor {
   std::size_t mode;
   double least;
-  double more;  ///< beyond that, at the most
+  double more;  ///< the most that it may have beyond its least
 };
 
-/// What follows a mode.
+/// The modes that may follow a mode.
 struct Outgoing {
   std::vector<Successor> successors;
-  double rest = 1;  ///< of 1, when all have their least
+  double rest = 1;  ///< 1 less all of the least
 };
 
 std::vector<Outgoing> outgoing_of(const NetworkSpec& network) {
@@ -45,10 +45,10 @@ std::vector<Outgoing> outgoing_of(const NetworkSpec& network) {
   return result;
 }
 
-/// The greatest expectation over what follows a mode.
+/// The greatest expected risk over the modes that may follow.
 double expected(const Outgoing& outgoing, const std::function<double(std::size_t mode)>& risk) {
   double sum = 0;
-  std::vector<std::pair<double, double>> more;  // risk, what its mode may have
+  std::vector<std::pair<double, double>> more;  // (risk, probability that its mode may have beyond its least)
   for (const Successor& next : outgoing.successors) {
     const double own = risk(next.mode);
     sum += next.least * own;
@@ -65,13 +65,12 @@ double expected(const Outgoing& outgoing, const std::function<double(std::size_t
   return sum;
 }
 
-/// A claim can be anything; what is no probability is told of where it stands.
+/// The claim if it is a probability, else certainty: claims that are none are reported at their cell.
 double as_probability(double claimed) {
   return claimed >= 0 && claimed <= 1 ? claimed : 1;
 }
 
-/// Of all cells what follows a mode, as numbers that order the other way round: the place among those that
-/// occur.
+/// The expected risks after a mode, of all cells, as ranks in descending order among the values that occur.
 struct Ranked {
   std::vector<double> risks;  ///< descending
   std::vector<std::int32_t> rank;
@@ -118,14 +117,14 @@ class RiskStep {
     choices_.resize(partitions_.size());
   }
 
-  /// Takes a cell of K.
+  /// Goes to a cell of K.
   void go_to(CheckedCell& cell) {
     cell_ = &cell;
     for (std::size_t p = 0; p < choices_.size(); ++p)
       choices_[p] =
           told_[p] ? told_[p]->of(cell.number(), cell.admitted()) : independent_[p].of(cell.admitted());
   }
-  /// T of a mode there.
+  /// T of a mode at the cell.
   [[nodiscard]] double risk(std::size_t mode, const Ranked& after) {
     const std::vector<std::int64_t>& choices = choices_[partition_of_[mode]];
     if (choices.empty()) return 1;
@@ -150,12 +149,12 @@ class RiskStep {
   std::vector<std::vector<std::vector<std::int32_t>>> partitions_;
   std::vector<std::size_t> partition_of_;  ///< [mode]
   std::vector<IndependentChoices> independent_;
-  std::deque<std::optional<RuledChoices>> told_;  ///< [partition] of agents who are told what to do
+  std::deque<std::optional<RuledChoices>> told_;  ///< [partition] choices of agents who act by rules
   CheckedCell* cell_ = nullptr;
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition]
 };
 
-/// What all threads read.
+/// Data that all threads read.
 struct RiskClaims {
   explicit RiskClaims(const CheckGround& ground)
       : spec(*ground.spec),
@@ -165,7 +164,7 @@ struct RiskClaims {
         after(rank_all(outgoing, risks)) {
     std::size_t most = 0;
     for (const Outgoing& own : outgoing) most = std::max(most, own.successors.size());
-    // An operation is off by half of this at the most; each successor has four.
+    // An operation is off by at most half of epsilon; there are four for each successor.
     rounding = (4.0 * static_cast<double>(most) + 8) * std::numeric_limits<double>::epsilon();
   }
 
@@ -174,10 +173,10 @@ struct RiskClaims {
   double rate;
   std::vector<Outgoing> outgoing;
   std::vector<Ranked> after;  ///< [mode]
-  double rounding = 0;        ///< of one step, as a part of it
+  double rounding = 0;        ///< relative, of one step
 };
 
-/// Names what is wrong.
+/// A tally that names what is wrong.
 class RiskTally : public Tally {
  public:
   RiskTally(const CheckGround& ground, const std::string& check) : Tally(check), ground_(ground) {}
@@ -188,7 +187,7 @@ class RiskTally : public Tally {
       return fmt::format("{}, mode {}: {}", cell.place(), ground_.spec->network->modes[mode].name, what);
     });
   }
-  /// Where posts are perhaps others, so are risks.
+  /// Counts a claim as open if posts, and so risks, may be others than those of the analysis; else as wrong.
   void doubt(const CheckedCell& cell, std::size_t mode, const std::string& what) {
     if (ground_.sound_only()) {
       add_unproven();
@@ -252,7 +251,7 @@ class RiskCheck : public AnswerCheck {
     return std::make_unique<RiskChecker>(ground_, claims_, tally_);
   }
 
-  /// The N passes.
+  /// Computes V_N in N passes, and compares it.
   void check_all(ThreadTeam& team) override {
     if (!ground_.is_full) return;
     std::vector<std::vector<double>> risks = first_risks();
@@ -302,7 +301,7 @@ class RiskCheck : public AnswerCheck {
   void compare(const CheckedCell& cell, const std::vector<std::vector<double>>& risks) {
     const double steps = static_cast<double>(claims_.spec.risk->horizon);
     const double rounding = std::min(0.5, steps * claims_.rounding);
-    constexpr double kPart = 1e-3, kLeast = 1e-30;  // what the analysis may round up by
+    constexpr double kPart = 1e-3, kLeast = 1e-30;  // the most by which the analysis may round up
     for (std::size_t mode = 0; mode < risks.size(); ++mode) {
       full_tally_.add_checked(1);
       const auto claimed = double{claims_.risks[mode][cell.at()]};
@@ -328,8 +327,8 @@ std::unique_ptr<AnswerCheck> check_risk(const CheckGround& ground) {
 
 double risk_check_memory(const ProblemSpec& spec) {
   if (!spec.risk) return 0;
-  // What follows in each mode: its rank, and as many risks at the most; while one is ranked two lists more.
-  // Of all passes the risks before and after, too.
+  // For each mode a rank a cell, and at most as many risks; while ranks are found two lists more. For N
+  // passes also the risks before and after a pass.
   const auto modes = static_cast<double>(spec.network->modes.size());
   return modes * (sizeof(std::int32_t) + 2 * sizeof(double)) + 2 * sizeof(double);
 }

@@ -74,7 +74,7 @@ void ExpectedLevels<Level>::find_rows(std::size_t number, const std::vector<Leve
   });
 }
 
-/// Tells of the own rows that have changed, and hears of those of the halo.
+/// Sends own rows that have changed, and takes in ghost rows.
 template <class Level>
 void ExpectedLevels<Level>::exchange(std::size_t number) {
   LevelRows<Level>& levels = own(number);

@@ -9,10 +9,10 @@
 
 namespace coordreq {
 
-/// E_q V of all cells, as levels that a PostReader reads: for each different E_q in 32 bits, or for one of
-/// them at a time in 64.
+/// E_q V of all cells, as levels for a PostReader: in 32 bits one map for each different E_q, in 64 bits one
+/// map for one E_q at a time.
 ///
-/// Of several processes each works out the rows that it owns, and is told of those of its halo.
+/// Of several processes each works out the rows that it owns, and takes in its ghost rows.
 template <class Level>
 class ExpectedLevels {
  public:
@@ -24,13 +24,13 @@ class ExpectedLevels {
   [[nodiscard]] const LevelRows<Level>& of(std::size_t number) const {
     return levels_[levels_.size() == 1 ? 0 : number];
   }
-  /// [row] whether the last update() has changed it.
+  /// [row] Whether the last update() has changed the row.
   [[nodiscard]] const std::vector<std::uint8_t>& changed(std::size_t number) const {
     return changed_[number];
   }
 
   /// Brings all maps up to date. Together. @param risks [mode] V; the first time in all rows held
-  /// @param changed [mode][row] whether V has changed since the last time, which is not looked at the first
+  /// @param changed [mode][row] whether V has changed since the last call; not read in the first
   /// @returns whether any row of any map has changed, of any process
   bool update(const std::vector<LevelRows<std::uint32_t>>& risks,
               const std::vector<std::vector<std::uint8_t>>& changed, ThreadTeam& team);

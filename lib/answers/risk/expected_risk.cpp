@@ -18,7 +18,7 @@ namespace {
 /// Lanes that are worked out together; they stay in the first-level cache.
 constexpr std::size_t kLanes = 256;
 
-/// While it lives the processor rounds up.
+/// The processor rounds up during the lifetime of this object.
 class RoundingUp {
  public:
   RoundingUp() { std::fesetround(FE_UPWARD); }
@@ -39,8 +39,8 @@ float risk_at(const std::uint32_t* row, std::size_t lane) {
   return std::bit_cast<float>(~row[lane]);
 }
 
-// What computes stands in functions of its own, which are never inlined: compilers may move arithmetic over a
-// change of the rounding mode, but not out of the function that is called.
+// Functions that compute are never inlined: compilers may move arithmetic over a change of the rounding mode,
+// but not out of a function that is called.
 
 [[gnu::noinline]] void add_row(const std::uint32_t* row, double weight, std::size_t n, Block& block) {
   for (std::size_t j = 0; j < n; ++j) {
@@ -50,7 +50,7 @@ float risk_at(const std::uint32_t* row, std::size_t lane) {
   }
 }
 
-/// Adds for one lane what the modes have beyond their least, the riskiest first.
+/// Adds for one lane the rest of probability, to the riskiest modes first.
 [[gnu::noinline]] void add_rest(std::span<const float> risks, const std::vector<double>& more, double rest,
                                 std::vector<std::size_t>& order, double& sum) {
   std::iota(order.begin(), order.end(), 0);

@@ -15,7 +15,7 @@ inline constexpr char kRisk[] = "/risk";
 /// The probability to leave K from each cell, in each mode of the network.
 [[nodiscard]] Fields risk_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_risk_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -19,15 +19,15 @@ class WorstRisk final : public ModeRisk<Level> {
   IndependentActions<Level> actions_;
 };
 
-/// Of all u that are allowed, instead of those of C(x): what these do not have in common leads out of K, and
-/// no risk is greater than that one's; in K there is always an u of C(x).
+/// The least risk over all allowed u instead of those of C(x): an allowed u outside C(x) leads out of K, and
+/// no risk is greater than its risk; in K there is always an u of C(x).
 template <class Level>
 class LeastRisk final : public ModeRisk<Level> {
  public:
   LeastRisk(const ActionGrouping& grouping, const RowHull& hull, int workers)
       : actions_(grouping, hull, true, workers) {}
   void find(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker) override {
-    // Of levels that rise all are asked for, whatever they were.
+    // The operator of levels that rise looks at all cells, for any old levels.
     static_cast<void>(actions_.next_levels(place, posts, next, next, worker));
   }
 

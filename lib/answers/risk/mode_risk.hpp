@@ -10,9 +10,9 @@
 
 namespace coordreq {
 
-/// OPT over u of max over y in f(x,u), for the cells of K, of risks whose levels a reader has: of the agents
-/// of one partition. A post that is blocked is certain to leave, and so is what `allow` forbids. What is said
-/// of other cells has no meaning.
+/// OPT over u of max over y in f(x,u) of a risk whose levels a reader has, for the cells of K, by the agents
+/// of one partition. A post that is blocked, or forbidden by `allow`, has risk 1. Results for other cells
+/// have no meaning.
 template <class Level>
 class ModeRisk {
  public:
@@ -21,13 +21,13 @@ class ModeRisk {
   virtual void find(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker) = 0;
 };
 
-/// What the agents of each partition of a network choose from: u in IND_C(x), or in A(x) of those who do what
-/// they are told, the greatest risk counts; or, where they are one class and agree on what is safest, the
-/// least risk of u in C(x).
+/// How the agents of each partition of a network choose: any u in IND_C(x), or in A(x) if they act by rules,
+/// so that the greatest risk counts; or, if they are one class and agree on the safest, the u of least risk
+/// in C(x).
 class ModeChoices {
  public:
   /// @param partitions the classes of each
-  /// @param silent [partition] A(x) in K; null: they choose from IND_C(x)
+  /// @param silent [partition] A(x) in K; null: its agents choose from IND_C(x)
   /// @pre unchecked: the controller, the hull and A(x) outlive this object.
   ModeChoices(const Controller& controller, const RowHull& hull,
               const std::vector<std::vector<InputClass>>& partitions,

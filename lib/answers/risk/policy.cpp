@@ -29,7 +29,7 @@ class SafestPolicy : public CellPolicy {
   }
 
  private:
-  /// The greatest risk in f(x,u), as bits. Of agents who choose no post of C(x) is blocked.
+  /// The greatest risk in f(x,u), as bits. No post of C(x) is blocked.
   [[nodiscard]] std::int32_t worst(std::int64_t u) {
     std::vector<IndexRange> box;
     for (std::size_t i = 0; i < posts_.grid().size(); ++i) {

@@ -7,16 +7,16 @@
 namespace coordreq {
 namespace paths {
 
-// What the policy below asks of a cell, in one mode: not in a results file, but worked out from it. Bits of
-// float32, which for numbers that are not negative have the same order.
+// Values of cells for the policy below, in one mode: computed from a results file. Bits of float32, which for
+// numbers that are not negative have the same order.
 inline constexpr char kRiskAfter[] = "/risk:after";  ///< E_q V_N, rounded up
 inline constexpr char kRiskMost[] = "/risk:most";    ///< V_N + rate, rounded down
 
 }  // namespace paths
 
-/// What agents who are all connected choose from, without a clock, to be as safe as V_N + n rate says
-/// (contract, section 10): the u in C(x) with max over y in f(x,u) of E_q V_N(y,.) <= V_N(x,q) + rate.
-/// Roundings may leave none of them; then those of the least risk.
+/// The choices of agents who are all connected, without a clock, that are as safe as V_N + n rate (contract,
+/// section 10): the u in C(x) with max over y in f(x,u) of E_q V_N(y,.) <= V_N(x,q) + rate. Roundings may
+/// leave none; then the u of least risk.
 /// @param delay the path of the delays
 [[nodiscard]] AnswerPolicy safest_policy(const std::string& delay);
 

@@ -15,16 +15,17 @@ namespace coordreq {
 namespace {
 
 /// Rows that one thread takes at a time.
-constexpr std::int64_t kPieceRows = 16;
+constexpr std::int64_t kTaskRows = 16;
 
-/// The rows in which there is something to be done.
+/// Numbers of rows to be worked out.
 using RowNumbers = std::vector<std::int64_t>;
 
-/// Calls `body(row, worker)` for rows, those of a unit one after the other, after `enter(worker)`.
+/// Calls `body(row, worker)` for rows, those of a unit one after the other, with `enter(worker)` before each
+/// unit.
 template <class Enter, class Body>
 void for_each_in_units(const RowEngine& engine, const RowNumbers& rows, ThreadTeam& team, const Enter& enter,
                        const Body& body) {
-  team.for_each(std::ssize(rows), kPieceRows, [&](ThreadTeam::Range range, int worker) {
+  team.for_each(std::ssize(rows), kTaskRows, [&](ThreadTeam::Range range, int worker) {
     std::int64_t unit = -1;
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       const std::int64_t row = rows[static_cast<std::size_t>(i)];
@@ -135,11 +136,11 @@ class Iteration {
     return rows;
   }
 
-  /// V_{n+1} of one mode, and which rows it changes.
+  /// Finds V_{n+1} of one mode, and the rows that it changes.
   void step(std::size_t mode, const ExpectedLevels<std::uint32_t>& expected, ModeRisk<std::uint32_t>& choices,
             std::deque<Worker<std::uint32_t>>& workers, std::vector<std::uint8_t>& changed) {
     const std::size_t number = problem_.expected->of_mode[mode];
-    // What is forbidden counts at first, too, where all has left and posts meet no row at all.
+    // The first step visits all rows: those whose posts meet no row may still have forbidden joint inputs.
     const RowNumbers rows = state_.steps == 0 ? alive_ : pending_rows(expected.changed(number));
     const auto n = static_cast<std::size_t>(engine_.row_length());
     for_each_in_units(
@@ -161,7 +162,7 @@ class Iteration {
     if (mode + 1 < modes() && watch_.step) watch_.step(step_, state_.steps);
   }
 
-  /// worker.risks = one more step of a row, kCertain outside K, none where the task is over.
+  /// worker.risks = one more step of a row: kCertain outside K, 0 risk where the task is over.
   template <class Level>
   void find(std::int64_t row, ModeRisk<Level>& choices, Worker<Level>& worker, int w) const {
     const auto n = static_cast<std::size_t>(engine_.row_length());
@@ -177,7 +178,7 @@ class Iteration {
     });
   }
 
-  /// How far one more step of a mode goes beyond V.
+  /// Raises worker.rate to the most by which one more step of a mode goes beyond V.
   void compare(std::size_t mode, const ExpectedLevels<std::uint64_t>& expected,
                ModeRisk<std::uint64_t>& choices, std::deque<Worker<std::uint64_t>>& workers) const {
     const std::size_t number = problem_.expected->of_mode[mode];
@@ -196,7 +197,7 @@ class Iteration {
         });
   }
 
-  /// After a whole step.
+  /// Reports a whole step.
   void tell() {
     if (!watch_.step) return;
     std::vector<NumberRows> rows;
@@ -208,8 +209,8 @@ class Iteration {
 
   const RiskProblem& problem_;
   const RowEngine& engine_;
-  const CellSet& going_on_;  ///< the cells that something is asked of
-  bool ends_early_;          ///< they are not all of K
+  const CellSet& going_on_;  ///< the cells whose posts are looked at
+  bool ends_early_;          ///< going_on_ is not all of K
   const RiskWatch& watch_;
   ThreadTeam& team_;
   ModeChoices choices_;

@@ -18,12 +18,13 @@ namespace coordreq {
 class Projections;
 
 struct RiskProblem {
-  const Controller* controller = nullptr;  ///< of K, without a goal that ends the task, where risk is 0
-  const CellSet* invariant = nullptr;      ///< K
+  const Controller* controller =
+      nullptr;  ///< C in K, without the cells of a goal that ends the task, where risk is 0
+  const CellSet* invariant = nullptr;  ///< K
   const RowHull* hull = nullptr;
-  std::vector<std::vector<InputClass>> partitions;  ///< all different; the classes of each
+  std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each
   std::vector<const Projections*> silent;           ///< [partition] A(x), or null: see ModeChoices
-  std::vector<std::size_t> partition_of;            ///< [mode] index into these
+  std::vector<std::size_t> partition_of;            ///< [mode] index into partitions
   const ExpectedRisks* expected = nullptr;
   std::int64_t horizon = 0;  ///< N
   bool is_safest = false;
@@ -44,12 +45,11 @@ struct Risk {
   WaveCounts counts;
 };
 
-/// Looks on while risks grow, and says where to take up work that was broken off.
+/// Observes the work, and says where to take up work that was broken off.
 struct RiskWatch {
-  /// As WaveWatch::step, after each step of a mode; the state is V of all modes after a whole step, of which
-  /// `steps` is the number.
+  /// As WaveWatch::step, after each step of a mode; the state is V of all modes after `steps` whole steps.
   std::function<void(const WaveStep& step, std::int64_t steps)> step;
-  /// A state that `step` has been shown, in the rows held; taken away. Null: begin with V_0.
+  /// A state that `step` was given, in the rows held; moved from. Null: begin with V_0.
   RiskState* resumed = nullptr;
 };
 
@@ -57,20 +57,20 @@ struct RiskWatch {
 [[nodiscard]] std::vector<RiskRows> first_risks(const CellSet& invariant, std::size_t modes,
                                                 const RowShare* share);
 
-/// How likely the agents are to leave K within N steps: for x in K
-/// V_{n+1}(x,q) = OPT over u of max over y in f(x,u) of E_q V_n(y,.), see ModeChoices and ExpectedRisk. A
-/// post that is blocked, or no u, counts as 1, what has left for good through a safe side as 0. That is value
-/// iteration for reachability in n steps; losses are drawn after the worst y is known, for they do not depend
-/// on the motion.
+/// How likely the agents are to leave K within N steps: for x in K V_{n+1}(x,q) = OPT over u of max over y in
+/// f(x,u) of E_q V_n(y,.), see ModeChoices and ExpectedRisk. A post that is blocked, and a cell without u,
+/// count as 1; a post that has left for good through a safe side counts as 0. This is value iteration for
+/// reachability in n steps; losses are drawn after the worst y is known, for they do not depend on the
+/// motion.
 ///
-/// Rounded up once a step, so that no V is below the exact one. Synchronous, for V_n is that of n steps; it
-/// ends before N only where a step has changed nothing at all, and then no later one would.
+/// Rounded up once a step, so that no V is below the exact one. Synchronous, for V_n is the risk within n
+/// steps; ends before N only after a step that has changed no V, since then no later step would.
 ///
 /// `rate` is the least number with T(V_N) <= V_N + rate in all cells of K and modes, T being one more step in
 /// double, rounded up: since T is monotone and T(v + c) <= T(v) + c, V_{N+n} <= V_N + n rate.
 ///
-/// Memory: 4 bytes a cell for each mode and each different E_q (for the rate 8 for one at a time instead of
-/// those of the E_q), and the projections of C for all partitions.
+/// Memory: 4 bytes a cell for each mode and each different E_q (for the rate 8 bytes for one E_q at a time
+/// instead), and the projections of C for all partitions.
 [[nodiscard]] Risk find_risk(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -45,7 +45,7 @@ std::int64_t greatest_of_all(const RowShare* share, std::int64_t own) {
   return share == nullptr ? own : share->ranks().greatest(own);
 }
 
-/// The greatest level below which no cell of K is, of all processes.
+/// The greatest risk in K, of all processes.
 float worst_risk(const RiskRows& risks, const CellSet& invariant, const RowShare* share) {
   std::uint32_t lowest = RiskRows::kTop;
   const RowShare::Range own = own_rows(share, risks.rows());
@@ -57,7 +57,7 @@ float worst_risk(const RiskRows& risks, const CellSet& invariant, const RowShare
   return risk_of(static_cast<std::uint32_t>(std::int64_t{RiskRows::kTop} - all));
 }
 
-/// Adds risk / unit, of which what is beyond the last digit is left out. @pre that is below 2^kDigitBits
+/// Adds risk / unit, cut off after the last digit. @pre risk / unit is below 2^kDigitBits
 void add(double risk, double unit, Digits& sum) {
   double rest = risk / unit;
   REQUIRES(rest >= 0 && rest < std::ldexp(1, kDigitBits));
@@ -73,7 +73,7 @@ void add(double risk, double unit, Digits& sum) {
 RiskFigures risk_figures(const RiskRows& risks, const CellSet& invariant, const RowShare* share,
                          ThreadTeam& team) {
   const float worst = worst_risk(risks, invariant, share);
-  // A power of two, so that nothing but what is left out is lost; the worst risk fills the first digit.
+  // A power of two, so that only the digits that are cut off are lost; the worst risk fills the first digit.
   const double unit = worst == 0 ? 1 : std::ldexp(1, std::ilogb(worst) - kDigitBits + 1);
   std::vector<Part> parts(static_cast<std::size_t>(team.size()));
   for_each_risk(risks, invariant, share, team, parts, [&](float risk, Part& part) {

@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-/// What the risks in K come to in one mode, of all processes.
+/// Figures of the risks in K in one mode, of all processes.
 struct RiskFigures {
   /// Thresholds of `within`: 0, 1e-12, 1e-11, ..., 1e-1.
   static constexpr std::size_t kThresholds = 13;

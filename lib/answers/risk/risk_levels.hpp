@@ -8,9 +8,9 @@
 #include "base/requires.hpp"
 
 // Probabilities as levels: numbers that are not negative order as the unsigned integers that their bits are,
-// so that the complement of the bits is a level: the greater the risk, the lower it is, and the minimum of
-// levels over a box is the greatest risk in it. Level 0 (blocked) stands for certainty, kTop (safe for ever)
-// for 0.
+// so that the complement of the bits is a level: the greater the risk, the lower the level, and the minimum
+// of levels over a box is the greatest risk in it. Level 0 (blocked) stands for certainty, kTop (safe for
+// ever) for 0.
 namespace coordreq {
 
 /// float for levels of 32 bits, double for those of 64.
@@ -32,7 +32,7 @@ template <class Level>
   return std::bit_cast<RiskNumber<Level>>(static_cast<Level>(~std::max(level, kCertain<Level>)));
 }
 
-/// The bits of a float, which is what a field of risks is as one of integers; they have the same order.
+/// The bits of a risk as a float, which are the integers of a field of risks; they have the same order.
 [[nodiscard]] constexpr std::int32_t risk_bits(std::uint32_t level) {
   return std::bit_cast<std::int32_t>(risk_of(level));
 }

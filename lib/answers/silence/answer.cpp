@@ -33,15 +33,16 @@ Silence& silence_in(Answers& answers) {
   return answers.get<Silence>();
 }
 
-/// The cells of a set in which the task goes on: all, but for a goal that ends it. @param part keeps them
+/// The cells of a set in which the task goes on: all but those of a goal that ends it. @param part storage
+/// for them
 const CellSet& going_on(const Ground& ground, const CellSet& set, CellSet& part) {
   if (!ground.over) return set;
   part = part_of(set, *ground.over, false, ground.shared_rows());
   return part;
 }
 
-/// K' = lim SPRE_S^i(X) for the product of what `then` leaves to each agent: the operator of the layers, from
-/// S on and without end.
+/// Finds K' = lim SPRE_S^i(X) for the product of the actions that `then` leaves to each agent: by the
+/// operator of the layers, from S on, without a limit.
 void find_set(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
   Silence& silence = silence_in(answers);
@@ -68,7 +69,8 @@ std::vector<std::int64_t> sums(const Ground& ground, const SilentActions& action
   return result;
 }
 
-/// Where all agents have rules they are the same whoever is in a class with whom: then by agents alone.
+/// Finds the silence of a partition. If all agents have rules it is the same for every partition, and found
+/// with each agent by itself.
 void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
   const ProblemSpec& spec = ground.spec;
@@ -92,7 +94,7 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
     own.layers.counts = found.counts;
     return std::move(found.layers_of);
   });
-  // Levels that were kept do not tell it.
+  // Kept levels do not have these counts.
   if (own.lacking.empty())
     own.lacking = sums(ground, SilentActions(answers, rules, classes, asked, work.team));
   follow_from_levels(coordination.max_delay, work.team, own.layers);
@@ -178,7 +180,7 @@ MemoryNeed silence_memory(const EngineSizes& sizes, int threads) {
     need.work = std::max(
         need.work, sizes.groups(classes) + projection_bytes(sizes, classes) + silent_bytes(sizes, classes));
   }
-  need.work += sizes.wave(threads) + sizes.recent_levels();
+  need.work += sizes.wave(threads) + sizes.level_delta();
   return need;
 }
 

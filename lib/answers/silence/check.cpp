@@ -17,14 +17,14 @@
 namespace coordreq {
 namespace {
 
-/// Each agent by itself: what `then` leaves to them depends on no class.
+/// Each agent by itself: the actions that `then` leaves do not depend on classes.
 std::vector<std::vector<std::int32_t>> single_agents(const ProblemSpec& spec) {
   std::vector<std::vector<std::int32_t>> agents;
   for (std::size_t i = 0; i < spec.agents.size(); ++i) agents.push_back({static_cast<std::int32_t>(i)});
   return agents;
 }
 
-/// What all threads share about one partition.
+/// Data of one partition that all threads share.
 struct PartitionOfSilence {
   PartitionOfSilence(const CheckGround& ground, std::size_t p)
       : claims(*ground.spec, *ground.claims, p, silence_layers_meant()),
@@ -33,11 +33,11 @@ struct PartitionOfSilence {
   }
 
   PartitionClaims claims;
-  std::optional<std::int64_t> most;  ///< max_delay, if that has cut L
+  std::optional<std::int64_t> most;  ///< max_delay, if it has stopped the iteration
   Tally silence;
 };
 
-/// K' as claimed, and where all agents do what comes after.
+/// The check of K' that all threads share.
 struct SetOfSilence {
   explicit SetOfSilence(const CheckGround& ground)
       : has_then(ground.spec->silence->has_then()),
@@ -49,7 +49,7 @@ struct SetOfSilence {
   std::atomic<std::int64_t> looked_at{0};
 };
 
-/// What keeps a cell in a set whatever agents do then, or the end of the task in it. @param set 0 or 1
+/// Whether all actions of `then` keep a cell in a set, or the task ends in the cell. @param set [cell] 0 or 1
 bool stays(CheckedCell& cell, RuledChoices& then, const std::vector<std::uint8_t>& set) {
   if (cell.is_over()) return true;
   const std::vector<std::int64_t> choices = then.of(cell.number(), cell.admitted());
@@ -153,7 +153,8 @@ class SilenceCheck : public AnswerCheck {
   }
 
  private:
-  /// No cell of S beside K' is in the limit: what leads out of the rest is taken away until nothing does.
+  /// Checks that no cell of S outside K' is in the limit: removes cells from which `then` leads out of the
+  /// rest until there are none.
   void check_greatest(ThreadTeam& team) {
     const std::vector<std::uint8_t>& safe = ground_.claims->members("/safe");
     std::vector<std::uint8_t> left(safe.size());
@@ -178,7 +179,7 @@ class SilenceCheck : public AnswerCheck {
     }
   }
 
-  /// Those of the cells from which what comes after may lead out of a set.
+  /// Of some cells those from which `then` may lead out of a set.
   [[nodiscard]] std::vector<std::int64_t> leaving(const std::vector<std::int64_t>& cells,
                                                   const std::vector<std::uint8_t>& set,
                                                   ThreadTeam& team) const {
@@ -212,7 +213,7 @@ std::unique_ptr<AnswerCheck> check_silence(const CheckGround& ground) {
 
 double silence_check_memory(const ProblemSpec& spec) {
   if (!spec.silence || !spec.silence->has_then()) return 0;
-  return sizeof(std::uint8_t) + 2 * sizeof(std::int64_t);  // what is left of S, and which of it is open
+  return sizeof(std::uint8_t) + 2 * sizeof(std::int64_t);  // the cells of S left, and those still open
 }
 
 }  // namespace coordreq

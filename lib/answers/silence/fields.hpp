@@ -17,7 +17,7 @@ inline constexpr char kSilenceSet[] = "/silence_set";
 /// say what silent agents do.
 [[nodiscard]] Fields silence_fields(const ProblemSpec& spec);
 
-/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_silence_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

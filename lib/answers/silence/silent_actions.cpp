@@ -33,7 +33,7 @@ std::vector<InputClass> inputs_of(const Ground& ground, const Classes& classes) 
   return result;
 }
 
-/// Those of the engine, and then the rules in the order of the agents.
+/// The sources of the engine, then the rules in the order of the agents.
 std::vector<ActionSource> sources_of(const Ground& ground, const Tables& tables) {
   std::vector<ActionSource> sources = action_sources(*ground.engine);
   for (const std::optional<PairTable>& table : tables) {
@@ -92,7 +92,7 @@ double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& cla
     for (const std::optional<Program>& rule : *rules) own += rule ? 2 * sizes.condition(*rule) : 0;
     tables = std::max(tables, own);
   }
-  double masks = sizes.set();  // where a class has no action
+  double masks = sizes.set();  // the set of cells where a class has no action
   for (const InputClass& own : classes) masks += sizes.set() * static_cast<double>(own.actions());
   return tables + masks;
 }

@@ -14,17 +14,17 @@
 
 namespace coordreq {
 
-/// What agents are told to do: for each a condition over its inputs and the states that it sees, or none.
+/// The rules of agents: for each a condition over its inputs and the states that it sees, or none.
 struct AgentRules {
   const std::vector<std::optional<Program>>& conditions;  ///< [agent]
-  std::string key;                                        ///< of `silence` that they stand under
+  std::string key;                                        ///< of `silence` under which the conditions stand
 };
 
-/// A(x) of classes that act by rules of their agents (contract, section 9): of each class what its agents'
-/// conditions permit and, if one of them has none, is in the projection of C(x) on the class. What `allow`
-/// forbids counts as blocked, and so do cells in which a class has nothing that it may do.
+/// A(x) of classes that act by rules of their agents (contract, section 9): for each class the actions that
+/// its agents' conditions permit and, if an agent has none, that are in the projection of C(x) on the class.
+/// Joint inputs that `allow` forbids count as blocked, and so do cells in which a class has no action.
 ///
-/// With all conditions of all agents, each in a class of its own, the same is C' of `then`.
+/// With the conditions of `then`, each agent in a class of its own, this is C'.
 struct SilentActions {
   /// @pre unchecked: K is known; `cells` outlives this object. @param cells where A is asked for
   /// @throws SpecError naming the first grid point where a condition cannot be decided
@@ -36,16 +36,16 @@ struct SilentActions {
   ~SilentActions() = default;
 
   std::vector<std::optional<PairTable>>
-      tables;  ///< [agent] none: it has no condition, or one that permits all
+      tables;  ///< [agent] nothing: it has no condition, or one that permits all actions
   std::vector<std::atomic<std::int64_t>> lacking;  ///< [agent] see SilentRules
   ActionGrouping grouping;
   Projections projections;
 };
 
-/// What SilentActions take beside ordinary projections, at about the most.
+/// The most bytes, about, that SilentActions take beside ordinary projections.
 [[nodiscard]] double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes);
 
-/// Each agent by itself, as classes of a partition are told.
+/// The classes of the partition in which each agent is by itself.
 [[nodiscard]] std::vector<std::vector<std::int32_t>> agents_alone(const ProblemSpec& spec);
 
 }  // namespace coordreq

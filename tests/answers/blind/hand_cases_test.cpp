@@ -1,5 +1,5 @@
-// Systems small enough to see what agents can do who see nothing: at each value of a state that stands still
-// one action is right, and which one nobody can tell.
+// Systems small enough to work out by hand, of agents who see nothing: at each value of a state that stands
+// still one action is right, and no agent can tell which.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using Steps = std::vector<std::int32_t>;
 
 constexpr std::int32_t kUnbounded = DelayLayers::kUnbounded;
 
-/// e becomes 1 at a mistake. @param s equation of the state that tells what is right, 0 to `last`
+/// e becomes 1 at a mistake. @param s equation of the state that is the right action, 0 to `last`
 Json make_spec(int last, const char* s, const char* e, const Json& values_of_second) {
   Json spec = Json::parse(R"({"coordreq": 1, "name": "case",
 "states": [{"name": "s", "lower": 0, "step": 1, "discrete": true},

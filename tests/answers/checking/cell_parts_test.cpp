@@ -54,7 +54,7 @@ TEST(CellParts, TheArcThatHoldsBothIsTheShortest) {
   EXPECT_EQ(both_of({0, 4}, {5, 9}, ring(10)), (IndexRange{0, 9}));
 }
 
-/// What was written for checks alone and what the analysis uses mean the same.
+/// The functions for checks alone agree with those of the analysis.
 TEST(CellParts, AreThoseOfTheAnalysis) {
   EXPECT_TRUE(rc::check([] {
     const auto pick = [](int low, int high) { return *rc::gen::inRange(low, high + 1); };

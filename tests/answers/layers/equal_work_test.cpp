@@ -1,4 +1,4 @@
-// Work that is not done because it seems to be equal to some that has been: where it is not.
+// Problems in which work seems equal and is not.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ void expect_plain_times_and_delays(const ProblemSpec& spec, const FastAnalysis& 
     EXPECT_TRUE(fast.delays(p) == plain.partitions[p].delay) << p;
 }
 
-/// Rows of which the ranges begin at the same places, and only the width of some tells them apart.
+/// Rows whose ranges begin at the same cells, and differ in the width of some alone.
 TEST(EqualWork, IsNotWhereTheWidthOfARangeDiffers) {
   ThreadTeam team(2);
   const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "widths",
@@ -41,8 +41,8 @@ TEST(EqualWork, IsNotWhereTheWidthOfARangeDiffers) {
   expect_plain_times_and_delays(spec, fast);
 }
 
-/// Rows that nothing was left to do in have work again where an image of theirs has changed.
-TEST(EqualWork, IsNotDoneWhereAnImageHasChanged) {
+/// Rows that nothing was left to do in have work again where a permuted row of theirs has changed.
+TEST(EqualWork, IsNotDoneWhereAPermutedRowHasChanged) {
   const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "listed",
 "states": [{"name": "p0", "lower": 0, "upper": 6, "step": 1, "outside": "saturate"},
            {"name": "p1", "lower": 0, "upper": 6, "step": 1, "outside": "saturate"},
@@ -59,7 +59,7 @@ TEST(EqualWork, IsNotDoneWhereAnImageHasChanged) {
                                      "listed");
   ThreadTeam team(2);
   const FastAnalysis fast(spec, team);
-  EXPECT_TRUE(fast.actions[1].mirror.has_value());
+  EXPECT_TRUE(fast.actions[1].symmetry.has_value());
   EXPECT_EQ(fast.layers[1].sizes, (std::vector<std::int64_t>{5580, 4260, 240, 0}));
   expect_plain_times_and_delays(spec, fast);
 }

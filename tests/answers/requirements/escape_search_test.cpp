@@ -1,4 +1,4 @@
-// Ways through a tree of equal choices, of which the system itself can go some.
+// Ways through a tree of equal choices, some of which the system itself can follow.
 
 #include "answers/requirements/escape_search.hpp"
 

@@ -97,8 +97,7 @@ TEST(RiskOfABrink, WhatIsForbiddenBlocksTheProduct) {
   expect_risks(found.risk[1], {1, 1, 1, 1});
 }
 
-/// Whatever they do they have left for good, so that no row is ever met: but what is forbidden counts at
-/// once.
+/// All posts have left for good, so that no row is ever met: but forbidden joint inputs count at once.
 TEST(RiskOfABrink, WhatIsForbiddenCountsWhereAllHaveLeftTheDomain) {
   Json spec = brink();
   spec["states"][0]["outside"]["above"] = "safe";

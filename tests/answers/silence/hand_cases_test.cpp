@@ -1,4 +1,4 @@
-// Points on a line that agents push: small enough to see what they do who do what they are told.
+// Points on a line that agents push: small enough to work out by hand what agents with rules do.
 
 #include <gtest/gtest.h>
 
@@ -111,7 +111,8 @@ TEST(SilenceHandCases, WhatComesAfterHasToBeSafeForEver) {
             (Silences{1, 0, -1, -1, -1}));
 }
 
-/// What is over is left for good: nobody is asked there, and the ways into it are safe for ever.
+/// Cells where the task is over count as left for good: agents choose nothing there, and ways into them are
+/// safe for ever.
 TEST(SilenceHandCases, TheEndOfTheTaskIsReachedForGood) {
   Json spec = two_points({{"actions", {{"a", "u == 1 and x != 3"}, {"b", "true"}}}});
   EXPECT_EQ(found(spec).silence, (Silences{3, 2, 1, 0, 0}));

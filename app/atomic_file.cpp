@@ -1,4 +1,4 @@
-#include "app/late_file.hpp"
+#include "app/atomic_file.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +12,11 @@
 
 namespace coordreq {
 
-LateFile::LateFile(std::string path, std::string what) : path_(std::move(path)), what_(std::move(what)) {
+AtomicFile::AtomicFile(std::string path, std::string what) : path_(std::move(path)), what_(std::move(what)) {
   check_writable(path_);
 }
 
-void LateFile::write(std::string_view text) {
+void AtomicFile::write(std::string_view text) {
   if (!file_) {
     delay_.emplace();
     file_.emplace(path_);
@@ -26,14 +26,14 @@ void LateFile::write(std::string_view text) {
   if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
 }
 
-void LateFile::commit() {
+void AtomicFile::commit() {
   REQUIRES(file_.has_value());
   stream_.close();
   if (!stream_) fail();
   file_->commit();
 }
 
-void LateFile::fail() const {
+void AtomicFile::fail() const {
   throw IoError(fmt::format("cannot write {}: {}", what_, std::generic_category().message(errno)), path_);
 }
 

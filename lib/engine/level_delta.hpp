@@ -9,16 +9,23 @@
 
 namespace coordreq {
 
-/// The levels of the cells that have changed in this sweep of a wave or in the one before, and kTop for all
-/// others.
+/// The delta of the levels of a wave: the level of each cell that has changed in this sweep or in the one
+/// before, and kTop for all other cells.
 ///
-/// A row that may have to change is looked at in every sweep, so that by the last one it has taken in all
-/// that had changed until then. A minimum over posts can become lower only by what has changed since, and
-/// that is in here: the rest need not be read again. What is in here without need does no harm.
+/// A row is visited in each sweep in which it is pending, so that by the last one it has taken in all changes
+/// before. Since then a minimum over its posts can have become lower only by cells that have changed since,
+/// and these are in the delta: an operator that is a minimum may read the delta instead of the levels. A cell
+/// that is in the delta without need has its level there, which does no harm.
+///
+/// Why: where rows are added up, most bounds over the delta are kTop, and say at once that no level sinks.
+/// With choices of a class added up together it took a large aircraft from 0.71 - 0.74 to 0.55 - 0.60 of the
+/// time of an earlier version. The switch is FastPaths::level_delta.
+///
+/// Threads: several may call change() for different rows; nobody reads meanwhile.
 template <class Level>
-class RecentLevels {
+class LevelDelta {
  public:
-  RecentLevels(const RowEngine& engine, ThreadTeam& team)
+  LevelDelta(const RowEngine& engine, ThreadTeam& team)
       : levels_(engine.make_levels<Level>(engine.posts())),
         now_(engine.rows(), engine.row_length()),
         age_(static_cast<std::size_t>(engine.rows()), Age::old) {
@@ -29,7 +36,7 @@ class RecentLevels {
 
   [[nodiscard]] const LevelRows<Level>& levels() const { return levels_; }
 
-  /// What had changed before the last sweep does not count any more.
+  /// Begins a sweep: cells that changed last before the sweep that has ended become kTop.
   void begin_sweep() {
     for (std::size_t r = 0; r < age_.size(); ++r) {
       if (age_[r] == Age::old) continue;
@@ -38,19 +45,19 @@ class RecentLevels {
     }
   }
 
-  /// A row gets other levels. Threads may tell of different rows.
+  /// The levels of a row change. @param before, after its cells
   void change(std::int64_t row, const Level* before, const Level* after) {
     const auto words = now_.row(row);
-    levels_.change_row(row, [&](Level* own) {
+    levels_.change_row(row, [&](Level* cells) {
       for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
         if (before[c] == after[c]) continue;
-        own[c] = after[c];
+        cells[c] = after[c];
         words[static_cast<std::size_t>(c / CellSet::kWordBits)] |= bit(c);
       }
     });
     age_[static_cast<std::size_t>(row)] = Age::now;
   }
-  /// The same where nobody knows any more what they were: all of them count.
+  /// The same where the levels before are not known: all cells count as changed.
   void change(std::int64_t row, const Level* after) {
     levels_.put(row, after);
     for (std::int64_t c = 0; c < levels_.row_length(); ++c)
@@ -63,13 +70,13 @@ class RecentLevels {
 
   static CellSet::Word bit(std::int64_t c) { return CellSet::Word{1} << (c % CellSet::kWordBits); }
 
-  /// All but what has changed in this sweep.
+  /// Makes the cells of a row kTop that have not changed in this sweep, and begins anew to note changes.
   void forget(std::int64_t row) {
     const auto words = now_.row(row);
-    levels_.change_row(row, [&](Level* own) {
+    levels_.change_row(row, [&](Level* cells) {
       for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
         if ((words[static_cast<std::size_t>(c / CellSet::kWordBits)] & bit(c)) == 0)
-          own[c] = LevelRows<Level>::kTop;
+          cells[c] = LevelRows<Level>::kTop;
       }
     });
     std::ranges::fill(words, CellSet::Word{0});

@@ -8,12 +8,15 @@
 
 namespace coordreq {
 
-/// What is asked for by a key, made when another one was asked for before: there is never more than one,
-/// however many there are in turn. May be asked by several threads at once.
+/// The value of the key that was asked for last: while the key stays the same the value is made once, and
+/// there is never more than one. Safe to ask from several threads at once; they wait for each other.
+///
+/// Why: arrays are written in stretches, but lists of layers and tables written out are made as a whole, and
+/// are large. The switch is FastPaths::last_values.
 template <class Key, class Value>
-class Latest {
+class LastValueCache {
  public:
-  /// @param make gives the value if it is not there
+  /// @param make makes the value of the key
   template <class Make>
   [[nodiscard]] std::shared_ptr<const Value> get(const Key& key, const Make& make) {
     const std::lock_guard lock(mutex_);

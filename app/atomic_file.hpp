@@ -10,14 +10,14 @@
 
 namespace coordreq {
 
-/// A file that appears whole or not at all, from its first text on: what comes before that may take long, and
-/// an interrupt then ends the program at once. Later a signal waits for the next text, so that nothing is
-/// left behind.
-class LateFile {
+/// A file that appears whole or not at all. It begins with its first text: the work before that may take
+/// long, and an interrupt then ends the program at once. Later a signal waits for the next text, so that
+/// nothing is left behind.
+class AtomicFile {
  public:
   /// @param what is written, for messages: "the export"
   /// @throws IoError as check_writable()
-  LateFile(std::string path, std::string what);
+  AtomicFile(std::string path, std::string what);
 
   /// @throws IoError if that fails; Error if the program was interrupted
   void write(std::string_view text);

@@ -1,4 +1,4 @@
-#include "engine/slot_book.hpp"
+#include "engine/interner.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -11,29 +11,29 @@ namespace {
 
 /// Rows of numbers in slots, so few different hashes that most contents meet others with the same one.
 struct Rows {
-  SlotBook book;
+  Interner interner;
   std::vector<int> held;               // [slot]
   std::vector<std::uint32_t> slot_of;  // [row]
 
   void put(std::size_t row, int value) {
     const auto hash = static_cast<std::uint64_t>(value % 3) << 62U | static_cast<std::uint64_t>(value % 3);
-    std::uint32_t slot = book.find(hash, [&](std::uint32_t other) { return held[other] == value; });
-    if (slot != SlotBook::kNone) {
-      book.hold(slot);
+    std::uint32_t slot = interner.find(hash, [&](std::uint32_t other) { return held[other] == value; });
+    if (slot != Interner::kNone) {
+      interner.hold(slot);
     } else {
-      slot = book.add(hash);
+      slot = interner.add(hash);
       held.resize(std::max<std::size_t>(held.size(), slot + 1));
       held[slot] = value;
     }
-    if (slot_of[row] != SlotBook::kNone) book.drop(slot_of[row]);
+    if (slot_of[row] != Interner::kNone) interner.drop(slot_of[row]);
     slot_of[row] = slot;
   }
 };
 
-TEST(SlotBook, HoldsEqualContentsOnce) {
+TEST(Interner, HoldsEqualContentsOnce) {
   EXPECT_TRUE(rc::check("as a map would", [] {
     Rows rows;
-    rows.slot_of.assign(40, SlotBook::kNone);
+    rows.slot_of.assign(40, Interner::kNone);
     std::vector<int> values(40, -1);
     const int changes = *rc::gen::inRange(0, 400);
     for (int k = 0; k < changes; ++k) {
@@ -49,29 +49,30 @@ TEST(SlotBook, HoldsEqualContentsOnce) {
       for (std::size_t other = 0; other < r; ++other) {
         if (values[other] < 0) continue;
         RC_ASSERT((rows.slot_of[r] == rows.slot_of[other]) == (values[r] == values[other]));
-        RC_ASSERT((rows.book.content(rows.slot_of[r]) == rows.book.content(rows.slot_of[other])) ==
+        RC_ASSERT((rows.interner.content(rows.slot_of[r]) == rows.interner.content(rows.slot_of[other])) ==
                   (values[r] == values[other]));
       }
     }
     std::int64_t held = 0;
-    for (std::size_t slot = 0; slot < rows.book.size(); ++slot) held += rows.book.rows(slot) > 0 ? 1 : 0;
+    for (std::size_t slot = 0; slot < rows.interner.size(); ++slot)
+      held += rows.interner.rows(slot) > 0 ? 1 : 0;
     RC_ASSERT(held == static_cast<std::int64_t>(count.size()));
     for (const auto& [value, times] : count) {
       const auto slot = rows.slot_of[static_cast<std::size_t>(std::find(values.begin(), values.end(), value) -
                                                               values.begin())];
-      RC_ASSERT(rows.book.rows(slot) == times);
+      RC_ASSERT(rows.interner.rows(slot) == times);
     }
   }));
 }
 
-TEST(SlotBook, AFreeSlotIsTakenAgainWithANewNumber) {
-  SlotBook book;
-  const std::uint32_t slot = book.add(7);
-  const std::uint32_t before = book.content(slot);
-  book.drop(slot);
-  EXPECT_EQ(book.find(7, [](std::uint32_t) { return true; }), SlotBook::kNone);
-  EXPECT_EQ(book.add(7), slot);
-  EXPECT_NE(book.content(slot), before);
+TEST(Interner, AFreeSlotIsTakenAgainWithANewNumber) {
+  Interner interner;
+  const std::uint32_t slot = interner.add(7);
+  const std::uint32_t before = interner.content(slot);
+  interner.drop(slot);
+  EXPECT_EQ(interner.find(7, [](std::uint32_t) { return true; }), Interner::kNone);
+  EXPECT_EQ(interner.add(7), slot);
+  EXPECT_NE(interner.content(slot), before);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-#include "engine/halo_news.hpp"
+#include "engine/ghost_exchange.hpp"
 
 namespace coordreq {
 namespace {
 
-/// The numbers of all rows of a box lie between two. @param ranges as for for_each_row()
+/// From the first to the last number of the rows of a box. @param ranges as for for_each_row()
 RowShare::Range span_of(const UniformGrid& grid, std::span<const IndexRange> ranges) {
   RowShare::Range rows{0, 1};
   for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -16,7 +16,7 @@ RowShare::Range span_of(const UniformGrid& grid, std::span<const IndexRange> ran
   return rows;
 }
 
-/// The same for all that posts of the rows of a unit can meet.
+/// From the first to the last number of the rows that posts of a unit can meet.
 RowShare::Range span_met(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows,
                          RowShare::Range rows, RowBox& box) {
   RowPlace place(engine.grid(), rows.begin);

@@ -6,9 +6,9 @@
 namespace coordreq {
 
 /// Sets that are merged: the root of each element.
-class Merger {
+class UnionFind {
  public:
-  explicit Merger(std::size_t count) : parent_(count) {
+  explicit UnionFind(std::size_t count) : parent_(count) {
     for (std::size_t i = 0; i < count; ++i) parent_[i] = i;
   }
 

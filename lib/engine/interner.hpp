@@ -6,15 +6,16 @@
 
 namespace coordreq {
 
-/// Which places of a store hold what, where equal rows stand in one place (*slot*) together: a hash and a
-/// number for each content, and how many rows have it. What the contents are the owner knows.
-class SlotBook {
+/// The index of a store in which equal rows stand in one *slot* together: for each slot the hash of its
+/// content, a number for the content, and how many rows stand there. The contents themselves are with the
+/// owner of the store.
+class Interner {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
-  SlotBook() : table_(64, kNone) {}
+  Interner() : table_(64, kNone) {}
 
-  /// The slot in use with this content, or kNone. @param is_equal whether a slot holds it
+  /// The slot in use with a content, or kNone. @param is_equal whether a slot has that content
   template <class IsEqual>
   [[nodiscard]] std::uint32_t find(std::uint64_t hash, const IsEqual& is_equal) const {
     for (std::size_t at = home(hash); table_[at] != kNone; at = next(at)) {
@@ -36,8 +37,9 @@ class SlotBook {
     enter(slot);
     return slot;
   }
+  /// More rows stand in a slot.
   void hold(std::uint32_t slot, std::int64_t rows = 1) { slots_[slot].rows += rows; }
-  /// One row less; the last one leaves the slot free.
+  /// A row leaves a slot; when the last one has left it the slot is free.
   void drop(std::uint32_t slot) {
     if (--slots_[slot].rows > 0) return;
     remove(slot);
@@ -45,12 +47,12 @@ class SlotBook {
     --used_;
   }
 
-  /// Slots that have ever been in use, and how many rows stand in one of them.
+  /// Number of slots that have ever been in use; and of rows in one of them.
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
   [[nodiscard]] std::int64_t rows(std::size_t slot) const { return slots_[slot].rows; }
-  /// The number of the content, which no other content has or will have before renumber().
+  /// The number of the content of a slot; no other content has had it, or will have it, before renumber().
   [[nodiscard]] std::uint32_t content(std::uint32_t slot) const { return slots_[slot].content; }
-  /// Numbers the contents anew, so that numbers do not run out.
+  /// Numbers the contents anew, before numbers run out.
   void renumber() {
     contents_ = 0;
     for (Slot& slot : slots_) slot.content = contents_++;
@@ -72,8 +74,8 @@ class SlotBook {
     table_[at] = slot;
   }
 
-  /// What comes after a gap moves up, unless it is nearer to where it would begin to be looked for (Knuth,
-  /// The Art of Computer Programming, 6.4, Algorithm R).
+  /// Entries after the gap move up, unless the gap lies before the entry's home (Knuth, The Art of Computer
+  /// Programming, 6.4, Algorithm R).
   void remove(std::uint32_t slot) {
     std::size_t gap = home(slots_[slot].hash);
     while (table_[gap] != slot) gap = next(gap);

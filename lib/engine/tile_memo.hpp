@@ -8,18 +8,19 @@
 
 namespace coordreq {
 
-/// Finds tiles of which the work in a sweep is equal to work on another tile in the same sweep.
+/// The memo of a sweep: finds, for a tile to be worked out, a tile on which the same work was done in the
+/// sweep.
 ///
-/// A tile is worked out at most once a sweep, so that the rows of one that has been are its result until the
-/// sweep is over: what is to be copied stands there.
+/// A tile is worked out at most once a sweep, so that until the sweep is over its rows are the result of that
+/// work, to be copied.
 template <class Level>
-class EqualTiles {
+class TileMemo {
  public:
   /// @pre unchecked: all outlive this object.
-  EqualTiles(const EqualWork& equal, LevelRows<Level>& levels)
+  TileMemo(const EqualWork& equal, LevelRows<Level>& levels)
       : equal_(equal), levels_(levels), is_on_(equal.tiles != nullptr && levels.is_interned()) {}
 
-  /// False where too little has been found: looking up costs more than it saves.
+  /// False if there are no tiles, or if too few were found: then looking up costs more than it saves.
   [[nodiscard]] bool is_on() const { return is_on_; }
   /// Rows of a tile.
   [[nodiscard]] std::int64_t rows() const { return equal_.tiles->rows(); }
@@ -39,8 +40,8 @@ class EqualTiles {
     }
   }
 
-  /// The tile whose result is that of the one at `place`; the latter itself if it is to be worked out.
-  /// @pre unchecked: it is asked once a sweep.
+  /// The tile whose rows are the result for the tile that begins at `place`; that tile itself if it has to be
+  /// worked out. @pre unchecked: called at most once a sweep for a tile
   [[nodiscard]] std::int64_t find(const RowPlace& place) {
     const std::int64_t tile = place.row / rows();
     key_.assign(1, (*equal_.numbers)[static_cast<std::size_t>(tile)]);
@@ -64,13 +65,13 @@ class EqualTiles {
       if (levels_.copy_row(other * rows() + i, tile * rows() + i)) visit(tile * rows() + i);
     }
   }
-  /// Rows of the tile have changed.
+  /// To be called when rows of a tile have changed.
   void update(std::int64_t tile) {
     if (is_on_ && rows() > 1) contents_[static_cast<std::size_t>(tile)] = content(tile);
   }
 
  private:
-  /// Tiles to look up before it is judged whether that pays, and one of how many has to be found.
+  /// After so many tiles it is judged whether looking up pays: one of kLeastFound must have been found.
   static constexpr std::int64_t kEnough = 256;
   static constexpr std::int64_t kLeastFound = 16;
 
@@ -87,10 +88,10 @@ class EqualTiles {
   std::int64_t found_ = 0;
   Tiles::Scratch scratch_;
   Tiles::Numbers key_;
-  ListNumbers<std::uint32_t> keys_;  ///< of the tiles that this sweep has worked out
-  std::vector<std::int64_t> first_;  ///< [number of a key] the tile that had it first
-  ListNumbers<std::uint32_t> lists_;
-  Tiles::Numbers contents_;  ///< [tile] by the contents of its rows; unused for tiles of one row
+  ListNumbers<std::uint32_t> keys_;   ///< of the tiles that this sweep has worked out
+  std::vector<std::int64_t> first_;   ///< [number of a key] the tile that had it first
+  ListNumbers<std::uint32_t> lists_;  ///< contents of the rows of a tile
+  Tiles::Numbers contents_;           ///< [tile] number of its list of contents; unused for tiles of one row
 };
 
 }  // namespace coordreq

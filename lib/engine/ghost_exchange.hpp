@@ -7,32 +7,32 @@
 #include <utility>
 #include <vector>
 
+#include "engine/dirty_rows.hpp"
 #include "engine/level_messages.hpp"
-#include "engine/wave_news.hpp"
 
 namespace coordreq {
 
-/// For each peer the units of a rank from the first to the last whose posts can perhaps meet rows of it.
+/// [peer] The units of this rank, from the first to the last, whose posts can perhaps meet rows of the peer.
 [[nodiscard]] std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, const RowHull& hull,
                                                                  std::int64_t unit_rows);
 
-/// Tells other ranks, in the course of a wave, of the rows of their halos that have changed, and hears of
-/// those of its own.
+/// The ghost exchange of a wave: sends dirty rows to the ranks that hold them as ghosts, and takes in its own
+/// ghost rows that are dirty.
 ///
 /// In each sweep a rank sends one message to every rank that holds rows of it, as soon as it is through with
-/// these. It takes in that of the sweep before from every rank of which it holds rows, when it comes to the
-/// first unit that can meet these. So messages are on their way while other rows are worked out; and what a
-/// unit sees does not depend on how long they take.
+/// these rows. It takes in the message of the sweep before from every rank of which it holds rows, when it
+/// comes to the first unit that can meet them. So messages are on their way while other rows are worked out;
+/// and the levels that a unit sees do not depend on how long messages take.
 template <class Level>
-class HaloNews {
+class GhostExchange {
  public:
   /// @pre unchecked: there are several ranks, and all outlive this object.
-  HaloNews(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, WaveNews& news,
-           std::int64_t unit_rows)
+  GhostExchange(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, DirtyRows& dirty,
+                std::int64_t unit_rows)
       : levels_(levels),
         ranks_(levels.share()->ranks()),
         messages_(levels),
-        news_(news),
+        dirty_(dirty),
         peers_(levels.share()->peers().size()) {
     const std::vector<RowShare::Peer>& all = levels.share()->peers();
     const std::vector<RowShare::Range> meeting = units_that_meet_peers(engine, hull, unit_rows);
@@ -60,16 +60,18 @@ class HaloNews {
     std::sort(to_send_.begin(), to_send_.end(), later_first(sending_time()));
   }
 
-  /// Before a unit is looked at. Calls `visit(row)` for the rows that have changed.
+  /// To be called before a unit is looked at. Takes in the messages that it needs, and calls `visit(row)` for
+  /// the ghost rows in them.
   template <class Visit>
   void before(std::int64_t unit, const Visit& visit) {
     while (!to_take_.empty() && taking_time()(*to_take_.back()) <= time(unit)) take(visit);
   }
-  /// The units up to this one are done, in the order of the sweep.
+  /// To be called when the units up to this one, in the order of the sweep, are done. Sends the messages that
+  /// are complete.
   void after(std::int64_t unit) {
     while (!to_send_.empty() && sending_time()(*to_send_.back()) <= time(unit)) send();
   }
-  /// Lets messages come in beside the work.
+  /// Receives messages that have arrived, without taking them in.
   void listen() {
     for (auto peer = to_take_.rbegin(); peer != to_take_.rend(); ++peer) {
       if ((*peer)->arrived) continue;
@@ -77,13 +79,14 @@ class HaloNews {
       (*peer)->arrived = ranks_.receive((*peer)->share->rank);
     }
   }
+  /// Takes in and sends the rest of the messages of the sweep.
   template <class Visit>
   void end_sweep(const Visit& visit) {
     while (!to_take_.empty()) take(visit);
     while (!to_send_.empty()) send();
   }
 
-  /// After the last sweep: the messages that nobody has looked at. They say nothing.
+  /// After the last sweep: receives its messages, which hold no rows.
   void end() {
     for (Peer& peer : peers_) {
       if (!peer.share->received.empty()) static_cast<void>(ranks_.receive(peer.share->rank));
@@ -93,13 +96,13 @@ class HaloNews {
  private:
   struct Peer {
     const RowShare::Peer* share = nullptr;
-    RowShare::Range meeting;  ///< units from the first to the last that can meet rows of it
-    RowShare::Range sent;     ///< likewise with rows that it holds
-    std::uint32_t told = 0;   ///< the last batch that it knows of
-    std::optional<Bytes> arrived;
+    RowShare::Range meeting;       ///< units from the first to the last that can meet rows of it
+    RowShare::Range sent;          ///< units from the first to the last with rows that it holds
+    std::uint32_t told = 0;        ///< the last batch whose changes it was sent
+    std::optional<Bytes> arrived;  ///< a message that was received and not taken in
   };
 
-  /// When a sweep comes to a unit.
+  /// Ascends in the order of the sweep.
   [[nodiscard]] std::int64_t time(std::int64_t unit) const { return backwards_ ? -unit : unit; }
   [[nodiscard]] auto taking_time() const {
     return [this](const Peer& peer) {
@@ -115,9 +118,9 @@ class HaloNews {
     Peer& peer = *to_send_.back();
     to_send_.pop_back();
     ranks_.send(peer.share->rank, messages_.message(*peer.share, [&](std::int64_t row) {
-      return news_.has_changed_after(peer.told, row);
+      return dirty_.has_changed_after(peer.told, row);
     }));
-    peer.told = news_.batch();
+    peer.told = dirty_.batch();
   }
 
   template <class Visit>
@@ -126,7 +129,7 @@ class HaloNews {
     to_take_.pop_back();
     const Bytes message =
         peer.arrived ? *std::exchange(peer.arrived, std::nullopt) : ranks_.receive(peer.share->rank);
-    news_.begin_batch();
+    dirty_.begin_batch();
     messages_.take(message, [&](std::int64_t row, const Level* cells) {
       levels_.put(row, cells);
       visit(row);
@@ -136,7 +139,7 @@ class HaloNews {
   LevelRows<Level>& levels_;
   Ranks& ranks_;
   LevelMessages<Level> messages_;
-  WaveNews& news_;
+  DirtyRows& dirty_;
   bool backwards_ = false;
   std::vector<Peer> peers_;
   std::vector<Peer*> to_take_;  ///< in this sweep, the next one last

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/zeroed_array.hpp"
+#include "engine/row_hull.hpp"
+
+namespace coordreq {
+
+/// The dirty rows of a wave: rows that have changed since rows that can meet them were looked at last.
+/// Batches of work are numbered from 1 on; a change is known by the batch that made it.
+///
+/// Whether a unit can meet a change is asked of coarse units first: asking all units took an eighth of the
+/// time of three vehicles.
+///
+/// Threads: several may call mark_row(), for different rows; several may call enter() and meets_change(),
+/// each with a scratch of its own, while nobody marks. Everything else is for one thread.
+class DirtyRows {
+ public:
+  struct Scratch {
+    RowBox box;
+    std::vector<std::uint32_t> merged;  ///< [row of the unit] the last change in the shared dimensions
+    std::vector<std::int64_t> counter;
+  };
+
+  /// @pre unchecked: both outlive this object.
+  DirtyRows(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows);
+
+  /// The unit has to be looked at even if no row that it can meet has changed.
+  void set_unseen(std::int64_t unit) { seen_[static_cast<std::size_t>(unit)] = kNever; }
+  [[nodiscard]] bool is_unseen(std::int64_t unit) const {
+    return seen_[static_cast<std::size_t>(unit)] == kNever;
+  }
+  /// True if the unit is unseen, or if a unit that its posts can meet has changed since it was looked at
+  /// last. Fast for units in order, to or fro, as a wave asks.
+  [[nodiscard]] bool is_pending(std::int64_t unit);
+
+  /// Begins the next batch. @returns its number
+  std::uint32_t begin_batch() { return ++batch_; }
+  [[nodiscard]] std::uint32_t batch() const { return batch_; }
+  void mark_seen(std::int64_t unit) { seen_[static_cast<std::size_t>(unit)] = batch_; }
+  void mark_row(std::int64_t row) { changed_[static_cast<std::size_t>(row)] = batch_; }
+  void mark_unit_of(std::int64_t row) {
+    unit_changed_[static_cast<std::size_t>(row / unit_rows_)] = batch_;
+    if (coarse_dimensions_ > 0) coarse_changed_[static_cast<std::size_t>(row / coarse_rows_)] = batch_;
+    last_change_ = batch_;
+  }
+
+  /// Whether a row has changed after a batch.
+  [[nodiscard]] bool has_changed_after(std::uint32_t batch, std::int64_t row) const {
+    return changed_[static_cast<std::size_t>(row)] > batch;
+  }
+
+  /// Goes to a unit, whose rows are asked about with this scratch.
+  void enter(std::int64_t unit, Scratch& scratch) const;
+  /// True if posts of a row of the unit entered can meet a row that has changed since the unit was looked at.
+  [[nodiscard]] bool meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const;
+
+ private:
+  /// scratch.box = the rows that a unit can meet, in the shared dimensions.
+  void enclose_unit(const RowPlace& place, Scratch& scratch) const;
+  /// place_ = the first row of a unit.
+  void go_to(std::int64_t unit);
+
+  /// Instead of the number of the batch that looked at a unit: no batch has; or a batch before number 1 has.
+  static constexpr std::uint32_t kNever = 0;
+  static constexpr std::uint32_t kBeforeAll = 1;
+
+  const RowEngine& engine_;
+  const RowHull& hull_;
+  std::int64_t unit_rows_;
+  std::uint32_t batch_ = 0;                  ///< number of the last batch
+  std::uint32_t last_change_ = 0;            ///< the last batch with a change
+  ZeroedArray<std::uint32_t> changed_;       ///< [row] the batch that changed it last
+  std::vector<std::uint32_t> unit_changed_;  ///< [unit] the batch that changed a row of it last
+  std::vector<std::uint32_t> seen_;          ///< [unit] the batch that looked at it last
+  /// Of the dimensions that units share, so many tell *coarse units* apart; few of these are looked at before
+  /// it is known that no unit in them has changed. 0: there are none.
+  std::size_t coarse_dimensions_ = 0;
+  std::int64_t coarse_rows_ = 1;               ///< of a coarse unit
+  std::vector<std::int64_t> unit_strides_;     ///< [shared dimension] in units
+  std::vector<std::int64_t> coarse_strides_;   ///< [coarse dimension] in coarse units
+  std::vector<std::uint32_t> coarse_changed_;  ///< [coarse unit] the batch that changed it last
+  RowPlace place_;                             ///< of the unit asked about last
+  Scratch scratch_;
+};
+
+}  // namespace coordreq
