@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/unseen_motion.hpp"
-#include "answers/ground/answer.hpp"
+#include "answers/context/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/layers/answer.hpp"
@@ -35,11 +35,11 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
   add(advise_on_units(model.spec(), motion), all);
   if (!has_few_posts(model)) return all;
   Answers answers(model);
-  run_stages(ground_stages(model.spec()), answers, {.team = team});
+  run_stages(context_stages(model.spec()), answers, {.team = team});
   if (finds_invariance) run_stages(invariance_stages(model.spec()), answers, {.team = team});
-  add(advise_on_posts(answers.ground, motion), all);
-  add(advise_on_unseen_motion(answers.ground,
-                              finds_invariance ? answers.get<Invariance>().invariant : answers.ground.safe),
+  add(advise_on_posts(answers.context, motion), all);
+  add(advise_on_unseen_motion(answers.context,
+                              finds_invariance ? answers.get<Invariance>().invariant : answers.context.safe),
       all);
   return all;
 }
@@ -53,13 +53,13 @@ Warnings advise_before(const Model& model, const std::vector<StateMotion>& motio
 Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, ThreadTeam& team) {
   REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
   Warnings all;
-  if (answers.ground.share) {  // nobody has all of S and K: small ones are found once more
-    all = advise_alone(answers.ground.model, motion, true, team);
+  if (answers.context.share) {  // nobody has all of S and K: small ones are found once more
+    all = advise_alone(answers.context.model, motion, true, team);
   } else {
-    all = advise_on_spec(answers.ground.spec);
-    add(advise_on_units(answers.ground.spec, motion), all);
-    add(advise_on_posts(answers.ground, motion), all);
-    add(advise_on_unseen_motion(answers.ground, answers.get<Invariance>().invariant), all);
+    all = advise_on_spec(answers.context.spec);
+    add(advise_on_units(answers.context.spec, motion), all);
+    add(advise_on_posts(answers.context, motion), all);
+    add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant), all);
   }
   add(advise_on_answers(answers, team), all);
   for (const Answer& answer : all_answers()) {

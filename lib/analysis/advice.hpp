@@ -20,8 +20,9 @@ namespace coordreq {
 [[nodiscard]] Warnings advise_on_units(const ProblemSpec& spec, const std::vector<StateMotion>& motion);
 
 /// What posts show: states that move less than a cell in a period; sides left at the default `unsafe` through
-/// which pairs of safe cells are blocked. @pre the ground is laid. Cost: a pass over tables and S
-[[nodiscard]] Warnings advise_on_posts(const Ground& ground, const std::vector<StateMotion>& motion);
+/// which pairs of safe cells are blocked. @pre the context is set up. Cost: a pass over tables and S
+[[nodiscard]] Warnings advise_on_posts(const AnalysisContext& context,
+                                       const std::vector<StateMotion>& motion);
 
 /// What the answer shows: nothing that can be kept safe, or no silence at all, with what would help. For that
 /// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells, as

@@ -7,7 +7,7 @@
 
 #include "analysis/advice.hpp"
 #include "analysis/coarse_copy.hpp"
-#include "answers/ground/answer.hpp"
+#include "answers/context/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/layers/answer.hpp"
@@ -134,7 +134,7 @@ enum class Fault : std::uint8_t { nothing, no_silence, empty };
 Fault fault_of(const Answers& answers, std::size_t partition) {
   if (answers.get<Invariance>().cells == 0) return Fault::empty;
   const std::vector<std::int64_t>& sizes = answers.get<PartitionLayers>().partitions[partition].sizes;
-  return sizes.size() > 1 && sizes[1] == answers.ground.over_cells ? Fault::no_silence : Fault::nothing;
+  return sizes.size() > 1 && sizes[1] == answers.context.over_cells ? Fault::no_silence : Fault::nothing;
 }
 
 struct OutOfWork {};
@@ -194,7 +194,7 @@ Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
   limit.spend(work_of_tables(model) + cells * work_of_visit(model));
   SweepMeter meter(work_of_visit(model), limit);
   Answers answers(model);
-  std::vector<Stage> stages = ground_stages(spec);
+  std::vector<Stage> stages = context_stages(spec);
   for (const auto& more : {invariance_stages(spec), layers_stages(spec)})
     stages.insert(stages.end(), more.begin(), more.end());
   run_stages(stages, answers, {.team = team, .step = [&meter](const WaveStep& step, std::int64_t row_length) {
@@ -255,13 +255,13 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
 
 Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
   REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   std::vector<std::size_t> silent;  // without any silence
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const Fault fault = fault_of(answers, p);
     if (fault == Fault::empty) {
-      const bool is_unsafe = answers.ground.safe_cells == 0;
+      const bool is_unsafe = answers.context.safe_cells == 0;
       return {{"empty", is_unsafe ? "/safe" : "",
                fmt::format("the {} set is empty on this grid{}", is_unsafe ? "safe" : "invariance",
                            remedies(spec, p, fault, is_unsafe ? "" : kAskExplain, team))}};

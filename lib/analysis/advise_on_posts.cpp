@@ -142,22 +142,22 @@ std::string numbers_to_set(const ProblemSpec& spec, std::size_t state, const Sta
              : fmt::format("{} or {}", step, rough(period, spec.dynamics.unit));
 }
 
-void advise_on_motion(const Ground& ground, std::size_t i, const Spreads& spreads,
+void advise_on_motion(const AnalysisContext& context, std::size_t i, const Spreads& spreads,
                       const std::vector<StateMotion>& motion, Warnings& found) {
-  const GridDimension& dimension = ground.abstraction->grid[i];
-  const bool is_sum = ground.abstraction->tables[i].is_sum();
+  const GridDimension& dimension = context.abstraction->grid[i];
+  const bool is_sum = context.abstraction->tables[i].is_sum();
   if (dimension.discrete || dimension.count < 3 || !moves_less_than_a_cell(spreads, is_sum)) return;
   if (!is_sum && stands_still(spreads)) return;
-  const std::size_t state = ground.abstraction->grid.state(i);
-  const DynamicsSpec& dynamics = ground.spec.dynamics;
+  const std::size_t state = context.abstraction->grid.state(i);
+  const DynamicsSpec& dynamics = context.spec.dynamics;
   found.push_back(
       {"motion", fmt::format("/states/{}", state),
        fmt::format(
            "{} moves by less than one cell ({}) in a period ({}), so that every reachable set spreads "
            "to the next cell and answers show the grid rather than the system; make the step smaller "
            "or the period longer{}",
-           dimension.name, amount(dimension.step, ground.spec.states[state].unit),
-           amount(dynamics.period, dynamics.unit), numbers_to_set(ground.spec, state, motion[state]))});
+           dimension.name, amount(dimension.step, context.spec.states[state].unit),
+           amount(dynamics.period, dynamics.unit), numbers_to_set(context.spec, state, motion[state]))});
 }
 
 /// Whether the spec says nothing about a side of one of its states.
@@ -168,10 +168,10 @@ bool is_left_at_default(const nlohmann::json& states, std::size_t state, const c
 }
 
 /// "4,410 below p1", where pairs are blocked at that side; else empty.
-std::string blocked_at(const Ground& ground, std::size_t i, const Spreads& spreads, bool above) {
-  const GridDimension& dimension = ground.abstraction->grid[i];
+std::string blocked_at(const AnalysisContext& context, std::size_t i, const Spreads& spreads, bool above) {
+  const GridDimension& dimension = context.abstraction->grid[i];
   const auto count = static_cast<double>(dimension.count);
-  const double slack = ground.abstraction->tables[i].is_sum() ? kSlack : 0;
+  const double slack = context.abstraction->tables[i].is_sum() ? kSlack : 0;
   std::vector<bool> may_leave;
   for (std::size_t k = 0; k < spreads.all().size(); ++k) {
     const Spread& own = spreads.all()[k];
@@ -179,7 +179,7 @@ std::string blocked_at(const Ground& ground, std::size_t i, const Spreads& sprea
     may_leave.push_back(above ? at + own.last >= count - slack : at + own.first < slack);
   }
   if (std::find(may_leave.begin(), may_leave.end(), true) == may_leave.end()) return "";
-  const BlockedPairs blocked = count_blocked(ground, i, above, may_leave);
+  const BlockedPairs blocked = count_blocked(context, i, above, may_leave);
   if (blocked.pairs == 0) return "";
   return fmt::format("{}{} {} {}", blocked.is_all ? "" : "at least ", grouped(blocked.pairs),
                      above ? "above" : "below", dimension.name);
@@ -187,16 +187,16 @@ std::string blocked_at(const Ground& ground, std::size_t i, const Spreads& sprea
 
 }  // namespace
 
-Warnings advise_on_posts(const Ground& ground, const std::vector<StateMotion>& motion) {
-  REQUIRES(ground.engine && ground.hull);
+Warnings advise_on_posts(const AnalysisContext& context, const std::vector<StateMotion>& motion) {
+  REQUIRES(context.engine && context.hull);
   constexpr std::size_t kLongText = std::size_t{1} << 20;
-  const bool is_short = ground.spec.text.size() <= kLongText;
+  const bool is_short = context.spec.text.size() <= kLongText;
   const JsonDocument document =
-      JsonDocument::parse(is_short ? ground.spec.text : R"({"states": []})", "the spec");
-  const Abstraction& abstraction = *ground.abstraction;
+      JsonDocument::parse(is_short ? context.spec.text : R"({"states": []})", "the spec");
+  const Abstraction& abstraction = *context.abstraction;
   Warnings found;
   std::vector<std::string> blocked;
-  for (std::size_t state = 0; state < ground.spec.states.size(); ++state) {
+  for (std::size_t state = 0; state < context.spec.states.size(); ++state) {
     const std::size_t i = abstraction.grid.dimension_of(state);
     const GridDimension& dimension = abstraction.grid[i];
     std::vector<bool> sides;  // above
@@ -208,9 +208,9 @@ Warnings advise_on_posts(const Ground& ground, const std::vector<StateMotion>& m
     }
     if (sides.empty() && !may_move_less_than_a_cell(abstraction.tables[i], i, dimension.count)) continue;
     const Spreads spreads = spreads_of(abstraction.tables[i], i, dimension.count);
-    advise_on_motion(ground, i, spreads, motion, found);
+    advise_on_motion(context, i, spreads, motion, found);
     for (const bool above : sides) {
-      const std::string text = blocked_at(ground, i, spreads, above);
+      const std::string text = blocked_at(context, i, spreads, above);
       if (!text.empty()) blocked.push_back(text);
     }
   }

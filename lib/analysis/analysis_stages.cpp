@@ -32,13 +32,13 @@ void share_listed(Ranks& ranks, ListedController& listed) {
 
 /// A file that does not fit is an error that nobody should wait for.
 void read_listed(Answers& answers, const StageWork& /*work*/) {
-  Ground& ground = answers.ground;
-  if (ground.ranks == nullptr || ground.ranks->rank() == 0) {
-    ground.listed = read_controller_file(ground.spec);
+  AnalysisContext& context = answers.context;
+  if (context.ranks == nullptr || context.ranks->rank() == 0) {
+    context.listed = read_controller_file(context.spec);
   } else {
-    ground.listed.emplace();
+    context.listed.emplace();
   }
-  if (ground.ranks != nullptr) share_listed(*ground.ranks, *ground.listed);
+  if (context.ranks != nullptr) share_listed(*context.ranks, *context.listed);
 }
 
 }  // namespace

@@ -46,19 +46,19 @@ struct RankMemory {
 };
 
 /// As soon as it is known who holds what. Together. @throws LimitError
-void check_rank_memory(const Ground& ground, const RankMemory& memory, int threads) {
-  if (!memory.limit || !ground.share) return;
+void check_rank_memory(const AnalysisContext& context, const RankMemory& memory, int threads) {
+  if (!memory.limit || !context.share) return;
   std::int64_t held = 0;
-  for (const RowShare::Range run : ground.share->held()) held += run.end - run.begin;
-  const auto rows = static_cast<double>(ground.abstraction->grid.rows());
-  const RowShare::Range own = ground.share->own();
+  for (const RowShare::Range run : context.share->held()) held += run.end - run.begin;
+  const auto rows = static_cast<double>(context.abstraction->grid.rows());
+  const RowShare::Range own = context.share->own();
   const RowFractions part{.held = static_cast<double>(held) / rows,
                           .own = static_cast<double>(own.end - own.begin) / rows,
-                          .slices = bytes_of_slices(*ground.engine)};
-  const double needed = estimate_memory_of_rank(ground.model, threads, memory.before, part);
-  const std::int64_t most = ground.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));
-  check_memory_limit(ground.spec, static_cast<double>(most), static_cast<double>(*memory.limit),
-                     fmt::format("on the fullest of {} ranks, ", ground.ranks->count()));
+                          .slices = bytes_of_slices(*context.engine)};
+  const double needed = estimate_memory_of_rank(context.model, threads, memory.before, part);
+  const std::int64_t most = context.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));
+  check_memory_limit(context.spec, static_cast<double>(most), static_cast<double>(*memory.limit),
+                     fmt::format("on the fullest of {} ranks, ", context.ranks->count()));
 }
 
 /// Bytes that all processes have exchanged, by stage.
@@ -108,25 +108,25 @@ void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpo
                             [&](const std::string& stage) {
                               reporter.enter(stage);
                               meter.enter(stage);
-                              if (is_checked || !answers.ground.engine) return;
-                              check_rank_memory(answers.ground, memory, team.size());
+                              if (is_checked || !answers.context.engine) return;
+                              check_rank_memory(answers.context, memory, team.size());
                               is_checked = true;
                             },
                         .store = [checkpoint](const std::string& stage) -> StageStore* {
                           return checkpoint == nullptr ? nullptr : checkpoint->enter(stage);
                         }};
-  run_stages(analysis_stages(answers.ground.spec), answers, work, watch);
+  run_stages(analysis_stages(answers.context.spec), answers, work, watch);
 }
 
 void write(const std::string& path, const Answers& answers, StageReporter& reporter, ThreadTeam& team) {
   reporter.enter("writing");
   reporter.enter_part("lists");
   FieldValues values = found_values(answers, team);
-  reporter.watch_writing(answers.ground.spec, values);
+  reporter.watch_writing(answers.context.spec, values);
   reporter.set_temporary(true);
   std::optional<RankChunks> ranks;
-  if (answers.ground.share) ranks.emplace(team, *answers.ground.share, *answers.ground.order);
-  write_results(path, answers.ground.spec, values, team, ranks ? &*ranks : nullptr);
+  if (answers.context.share) ranks.emplace(team, *answers.context.share, *answers.context.order);
+  write_results(path, answers.context.spec, values, team, ranks ? &*ranks : nullptr);
 }
 
 /// What each answer says of itself. @param work what fixed points took
@@ -154,7 +154,7 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   Json work = Json::object();
   Json summary = summarise(answers, work);
   meter.tell(work);
-  const std::optional<Tightness> tightness = find_tightness(answers.ground);
+  const std::optional<Tightness> tightness = find_tightness(answers.context);
   summary["tightness"] = tightness_json(tightness);
   const std::vector<StateMotion> motion = sample_motion(model.spec());
   summary["motion"] = motion_json(model.spec(), motion);

@@ -12,12 +12,12 @@ namespace {
 /// Counts pairs of safe cells and joint inputs that are blocked at a side.
 class PairCounter {
  public:
-  PairCounter(const Ground& ground, std::size_t dimension, bool above)
-      : ground_(ground), abstraction_(*ground.abstraction), i_(dimension), above_(above) {
+  PairCounter(const AnalysisContext& context, std::size_t dimension, bool above)
+      : context_(context), abstraction_(*context.abstraction), i_(dimension), above_(above) {
     // Without `allow` only the inputs of the table make a difference.
     for (const std::int32_t j : abstraction_.tables[i_].inputs)
       inputs_.push_back(static_cast<std::size_t>(j));
-    if (ground.pairs.admissible() != nullptr) {
+    if (context.pairs.admissible() != nullptr) {
       inputs_.clear();
       for (std::size_t j = 0; j < abstraction_.inputs.size(); ++j) inputs_.push_back(j);
     }
@@ -28,7 +28,7 @@ class PairCounter {
   /// @param may_leave by own index, for those that are worth a look
   BlockedPairs run(const std::vector<bool>& may_leave) {
     known_.assign(places(), -1);
-    const CellSet& safe = ground_.safe;
+    const CellSet& safe = context_.safe;
     const UniformGrid& grid = abstraction_.grid;
     for (std::int64_t r = 0; r < safe.rows() && looked_at_ < kMost; ++r) {
       const bool is_along = i_ >= grid.across();
@@ -52,7 +52,7 @@ class PairCounter {
   /// How many numbers place_of() has; 0 where it says too little, or they are too many to be remembered.
   [[nodiscard]] std::size_t places() const {
     const TransitionTable& table = abstraction_.tables[i_];
-    if (ground_.pairs.admissible() != nullptr || table.is_sum()) return 0;
+    if (context_.pairs.admissible() != nullptr || table.is_sum()) return 0;
     const std::int64_t own = table.shift ? abstraction_.grid[i_].count : 1;
     const std::int64_t all = static_cast<std::int64_t>(table.entries.size()) / choices_ * own;
     return all <= kMost ? at(all) : 0;
@@ -93,14 +93,14 @@ class PairCounter {
     return above_ ? raw.last >= abstraction_.grid[i_].count : raw.first < 0;
   }
   [[nodiscard]] bool is_allowed(std::int64_t row, std::int64_t column, std::int64_t u) const {
-    const PairTable* const allow = ground_.pairs.admissible();
+    const PairTable* const allow = context_.pairs.admissible();
     if (allow == nullptr) return true;
     const auto bits = allow->row(row, u);
     return (bits[static_cast<std::size_t>(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) &
             1) != 0;
   }
 
-  const Ground& ground_;
+  const AnalysisContext& context_;
   const Abstraction& abstraction_;
   std::size_t i_;
   bool above_;
@@ -114,10 +114,10 @@ class PairCounter {
 
 }  // namespace
 
-BlockedPairs count_blocked(const Ground& ground, std::size_t dimension, bool above,
+BlockedPairs count_blocked(const AnalysisContext& context, std::size_t dimension, bool above,
                            const std::vector<bool>& may_leave) {
-  REQUIRES(ground.engine && ground.hull);
-  return PairCounter(ground, dimension, above).run(may_leave);
+  REQUIRES(context.engine && context.hull);
+  return PairCounter(context, dimension, above).run(may_leave);
 }
 
 }  // namespace coordreq

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 
 namespace coordreq {
 
@@ -15,8 +15,8 @@ struct BlockedPairs {
 
 /// @param dimension of the grid of the abstraction, and its side
 /// @param may_leave by own index: false where no post goes beyond that side
-/// @pre the ground is laid
-[[nodiscard]] BlockedPairs count_blocked(const Ground& ground, std::size_t dimension, bool above,
+/// @pre the context is set up
+[[nodiscard]] BlockedPairs count_blocked(const AnalysisContext& context, std::size_t dimension, bool above,
                                          const std::vector<bool>& may_leave);
 
 }  // namespace coordreq

@@ -3,9 +3,9 @@
 #include "analysis/analyze.hpp"
 #include "analysis/estimate_memory.hpp"
 #include "answers/answers.hpp"
-#include "answers/ground/answer.hpp"
+#include "answers/context/answer.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/share_ground.hpp"
+#include "answers/share_context.hpp"
 #include "engine/engine_sizes.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
@@ -102,11 +102,11 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
         fmt::format("on the fullest of {} ranks at least, ", ranks));
   check(need({.held = 0, .own = 0}), limits.here, "on each rank of however many, ");
   Answers answers(model);
-  ground_stages(spec).front().run(answers, {.team = team});
-  const auto all = static_cast<double>(answers.ground.abstraction->grid.rows());
+  context_stages(spec).front().run(answers, {.team = team});
+  const auto all = static_cast<double>(answers.context.abstraction->grid.rows());
   FullestRank fullest;
   double most = 0;
-  for (const RankRows& rows : rows_of_ranks(answers.ground, ranks)) {
+  for (const RankRows& rows : rows_of_ranks(answers.context, ranks)) {
     const double needed = need({.held = static_cast<double>(rows.own + rows.ghosts) / all,
                                 .own = static_cast<double>(rows.own) / all,
                                 .slices = rows.slices});

@@ -194,11 +194,11 @@ double Tightness::share() const {
   return posts.empty() ? 0.0 : static_cast<double>(loose) / static_cast<double>(posts.size());
 }
 
-std::optional<Tightness> find_tightness(const Ground& ground) {
-  REQUIRES(ground.engine && ground.hull);
-  const Abstraction& abstraction = *ground.abstraction;
+std::optional<Tightness> find_tightness(const AnalysisContext& context) {
+  REQUIRES(context.engine && context.hull);
+  const Abstraction& abstraction = *context.abstraction;
   if (abstraction.exact) return std::nullopt;
-  const ProblemSpec& spec = ground.spec;
+  const ProblemSpec& spec = context.spec;
   const std::vector<GridDimension> grid = dimensions_of(spec);
   const std::int64_t pairs = std::min(kPairs, abstraction.grid.cells() * abstraction.inputs.count());
   std::vector<Tightness::Post> posts;
@@ -216,9 +216,9 @@ std::optional<Tightness> find_tightness(const Ground& ground) {
     }
     const auto boxes = boxes_of(grid, cell);
     if (!boxes) continue;
-    const bool is_own =
-        ground.share == std::nullopt || (place / abstraction.grid.row_length() >= ground.share->own().begin &&
-                                         place / abstraction.grid.row_length() < ground.share->own().end);
+    const bool is_own = context.share == std::nullopt ||
+                        (place / abstraction.grid.row_length() >= context.share->own().begin &&
+                         place / abstraction.grid.row_length() < context.share->own().end);
     const std::vector<Interval> slots = slots_of(spec, abstraction.inputs, *boxes, u);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (grid[i].discrete || spec.dynamics.update(i) != nullptr) continue;
@@ -231,7 +231,7 @@ std::optional<Tightness> find_tightness(const Ground& ground) {
       excess.back() = 1 + std::max<std::int64_t>(length_of(range) - cells_needed(grid[i], *needed), 0);
     }
   }
-  if (ground.ranks != nullptr && ground.share) ground.ranks->add(excess);
+  if (context.ranks != nullptr && context.share) context.ranks->add(excess);
   Tightness result;
   for (std::size_t p = 0; p < posts.size(); ++p) {
     if (excess[p] == 0) continue;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/advice.hpp"
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 #include "base/json.hpp"
 
 namespace coordreq {
@@ -33,8 +33,8 @@ struct Tightness {
 };
 
 /// Of a sample of at most some hundred posts, the same every time and for any number of processes. Together.
-/// @returns nothing if every post is an exact hull. @pre the ground is laid
-[[nodiscard]] std::optional<Tightness> find_tightness(const Ground& ground);
+/// @returns nothing if every post is an exact hull. @pre the context is set up
+[[nodiscard]] std::optional<Tightness> find_tightness(const AnalysisContext& context);
 
 /// `posts`, `mean`, `p99`, `most`, `share`; null if there is none.
 [[nodiscard]] Json tightness_json(const std::optional<Tightness>& tightness);

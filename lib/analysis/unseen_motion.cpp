@@ -53,13 +53,13 @@ std::int64_t index_near(const GridDimension& dimension, double real) {
 
 class PassageSearch {
  public:
-  PassageSearch(const Ground& ground, const CellSet& kept)
-      : ground_(ground),
-        abstraction_(*ground.abstraction),
+  PassageSearch(const AnalysisContext& context, const CellSet& kept)
+      : context_(context),
+        abstraction_(*context.abstraction),
         grid_(abstraction_.grid),
         kept_(kept),
         posts_(abstraction_),
-        is_safe_(ground.spec.safe),
+        is_safe_(context.spec.safe),
         moved_(grid_.size()) {
     std::vector<std::int64_t> counts;
     for (const GridDimension& dimension : grid_.dimensions()) counts.push_back(dimension.count);
@@ -75,7 +75,7 @@ class PassageSearch {
       const std::int64_t x = place_of(number);
       number = (number + far) % all;
       ++reads_;
-      if (!kept_.test(x) || (ground_.over && ground_.over->test(x))) continue;
+      if (!kept_.test(x) || (context_.over && context_.over->test(x))) continue;
       for (std::int64_t j = 0; j < std::min(kInputsOfCell, choices); ++j) {
         u = (u + far_input) % choices;
         if (!may_pass(x, u) || !is_admissible(x, u)) continue;
@@ -113,7 +113,7 @@ class PassageSearch {
           raw.last == std::numeric_limits<std::int32_t>::max())
         return false;
       const double middle = (static_cast<double>(raw.first) + raw.last) / 2;
-      moved_[i] = ground_.spec.dynamics.update(grid_.state(i)) != nullptr
+      moved_[i] = context_.spec.dynamics.update(grid_.state(i)) != nullptr
                       ? 0
                       : middle - static_cast<double>(grid_.index(x, i));
       most = std::max(most, std::fabs(moved_[i]));
@@ -138,12 +138,12 @@ class PassageSearch {
       if (index < 0) return false;
       place += index * grid_.stride(i);
     }
-    return !ground_.safe.test(place);
+    return !context_.safe.test(place);
   }
 
   /// The pair is allowed, and its post is there and in what is kept.
   bool is_admissible(std::int64_t x, std::int64_t u) {
-    const PairTable* const allow = ground_.pairs.admissible();
+    const PairTable* const allow = context_.pairs.admissible();
     const std::int64_t row = x / grid_.row_length(), column = x % grid_.row_length();
     if (allow != nullptr &&
         (allow->row(row, u)[at(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) & 1) == 0)
@@ -167,7 +167,7 @@ class PassageSearch {
   /// The solution from the centre of the cell.
   std::optional<Passage> follow(std::int64_t x, std::int64_t u) {
     ++followed_;
-    const SystemSpec& spec = ground_.spec;
+    const SystemSpec& spec = context_.spec;
     SystemSpec part = spec;
     const std::int64_t parts = std::min(kMostSubSteps, 2 * parts_);
     part.dynamics.period /= static_cast<long>(parts);
@@ -205,7 +205,7 @@ class PassageSearch {
     return found;
   }
 
-  const Ground& ground_;
+  const AnalysisContext& context_;
   const Abstraction& abstraction_;
   const UniformGrid& grid_;
   const CellSet& kept_;
@@ -257,18 +257,19 @@ std::string longest_way(const SystemSpec& spec, const Passage& passage) {
 
 }  // namespace
 
-Warnings advise_on_unseen_motion(const Ground& ground, const CellSet& kept) {
-  REQUIRES(ground.engine && ground.hull && !ground.share && kept.rows() == ground.abstraction->grid.rows());
-  const ProblemSpec& spec = ground.spec;
+Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept) {
+  REQUIRES(context.engine && context.hull && !context.share &&
+           kept.rows() == context.abstraction->grid.rows());
+  const ProblemSpec& spec = context.spec;
   if (spec.dynamics.time == Time::discrete || spec.abstraction.between_samples) return {};
-  const std::optional<Passage> found = PassageSearch(ground, kept).run();
+  const std::optional<Passage> found = PassageSearch(context, kept).run();
   if (!found) return {};
   return {{"between_samples", "/abstraction",
            fmt::format("safety is asked only at samples, every {}: from {}, with {}, the way to the next one "
                        "{}, at {}, and {}; \"between_samples\": true asks for "
                        "safety at all times",
                        with_unit(nearest_double(spec.dynamics.period), spec.dynamics.unit),
-                       values_of(spec, found->begin), inputs_of(*ground.abstraction, spec, found->input),
+                       values_of(spec, found->begin), inputs_of(*context.abstraction, spec, found->input),
                        found->is_unsafe ? "is not safe" : "passes cells outside the safe set",
                        values_of(spec, found->there), longest_way(spec, *found))}};
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 #include "answers/warning.hpp"
 
 namespace coordreq {
@@ -11,7 +11,7 @@ namespace coordreq {
 /// followed from their centre with disturbances in the middle, without a guarantee; whoever finds none has
 /// proved nothing. Of those found it tells the first where the condition itself fails, else the first.
 /// @param kept K, or S where K is not known
-/// @pre the ground is laid, by one process; `kept` has its rows
-[[nodiscard]] Warnings advise_on_unseen_motion(const Ground& ground, const CellSet& kept);
+/// @pre the context is set up, by one process; `kept` has its rows
+[[nodiscard]] Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept);
 
 }  // namespace coordreq

@@ -5,12 +5,12 @@
 #include <unordered_map>
 #include <utility>
 
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 #include "base/requires.hpp"
 
 namespace coordreq {
 
-/// The results of the analysis of one problem: the ground, and the values of answers, each of a type of its
+/// The results of the analysis of one problem: the context, and the values of answers, each of a type of its
 /// own.
 ///
 /// Values keep their addresses once they have been added, and may refer to one another.
@@ -18,7 +18,7 @@ class Answers {
  public:
   /// @param ranks the processes that share the work; null: there is one
   /// @pre unchecked: both outlive this object
-  explicit Answers(const Model& model, Ranks* ranks = nullptr) : ground(model, ranks) {}
+  explicit Answers(const Model& model, Ranks* ranks = nullptr) : context(model, ranks) {}
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
@@ -48,7 +48,7 @@ class Answers {
     return *static_cast<Value*>(values_.at(typeid(Value)).get());
   }
 
-  Ground ground;
+  AnalysisContext context;
 
  private:
   std::unordered_map<std::type_index, std::shared_ptr<void>> values_;

@@ -13,7 +13,7 @@ struct MemoryNeed {
   double array = 0;    ///< its longest dataset in the file
 };
 
-/// The need of the ground, and of writing fields that belong to no answer.
-[[nodiscard]] MemoryNeed ground_memory(const EngineSizes& sizes, int threads);
+/// The need of the context, and of writing fields that belong to no answer.
+[[nodiscard]] MemoryNeed context_memory(const EngineSizes& sizes, int threads);
 
 }  // namespace coordreq

@@ -10,6 +10,8 @@
 #include "answers/coalition/answer.hpp"
 #include "answers/coalition/check.hpp"
 #include "answers/coalition/fields.hpp"
+#include "answers/context/answer.hpp"
+#include "answers/context/fields.hpp"
 #include "answers/convention/answer.hpp"
 #include "answers/convention/check.hpp"
 #include "answers/convention/fields.hpp"
@@ -18,8 +20,6 @@
 #include "answers/goal/check.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/goal/policy.hpp"
-#include "answers/ground/answer.hpp"
-#include "answers/ground/fields.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/check.hpp"
 #include "answers/invariance/fields.hpp"
@@ -45,11 +45,11 @@ namespace coordreq {
 
 const std::vector<Answer>& all_answers() {
   static const std::vector<Answer> plan = {
-      {.stages = ground_stages,
-       .memory = ground_memory,
-       .fields = ground_fields,
-       .fill = fill_ground_fields,
-       .summarise = summarise_ground},
+      {.stages = context_stages,
+       .memory = context_memory,
+       .fields = context_fields,
+       .fill = fill_context_fields,
+       .summarise = summarise_context},
       {.stages = invariance_stages,
        .memory = invariance_memory,
        .fields = invariance_fields,

@@ -9,7 +9,7 @@
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "answers/memory_need.hpp"
-#include "answers/one_cell/explain_ground.hpp"
+#include "answers/one_cell/explain_context.hpp"
 #include "answers/one_cell/policy.hpp"
 #include "answers/stage.hpp"
 #include "answers/warning.hpp"
@@ -18,7 +18,7 @@
 namespace coordreq {
 
 class AnswerCheck;
-struct CheckGround;
+struct CheckContext;
 
 /// One answer of an analysis, in a folder of its own: how it is found, shown and checked. Code that works on
 /// answers goes over all_answers() and knows none by name.
@@ -48,14 +48,14 @@ struct Answer {
   /// Its policies: the choices that it leaves to agents at a cell and a countdown; null: none.
   std::vector<AnswerPolicy> (*policies)(const ProblemSpec& spec) = nullptr;
   /// Its addition to the explanation of a delay, whether or not the spec asks for the answer; null: none.
-  Explained (*explain)(const ExplainGround& ground) = nullptr;
+  Explained (*explain)(const ExplainContext& context) = nullptr;
   /// The check of its fields in a file, by its definition; null, or a null result: there is none.
-  std::unique_ptr<AnswerCheck> (*check)(const CheckGround& ground) = nullptr;
+  std::unique_ptr<AnswerCheck> (*check)(const CheckContext& context) = nullptr;
   /// Bytes for each cell that the check keeps beside the values of the file; null: none.
   double (*check_memory)(const ProblemSpec& spec) = nullptr;
 };
 
-/// All answers, in the order of need; the first is the ground, which all others need.
+/// All answers, in the order of need; the first is the context, which all others need.
 [[nodiscard]] const std::vector<Answer>& all_answers();
 
 /// The stages of all answers that the spec asks for, in order.

@@ -58,16 +58,16 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
       no_error_(problem.spec->states.size()),
       slots_(problem.spec->slot_count()),
       doubles_(problem.spec->slot_count()) {
-  const PolicyGround ground{.spec = problem.spec,
-                            .partition = problem.partition,
-                            .tables = problem.tables,
-                            .posts = &posts_,
-                            .values = [this](const std::string& path) -> CellValue {
-                              return [values = problem_.values.at(path)](std::int64_t cell) {
-                                return values[at(cell)];
-                              };
-                            }};
-  for (const AnswerPolicy& own : problem.policies) cell_policies_.push_back(own.make(ground));
+  const PolicyContext context{.spec = problem.spec,
+                              .partition = problem.partition,
+                              .tables = problem.tables,
+                              .posts = &posts_,
+                              .values = [this](const std::string& path) -> CellValue {
+                                return [values = problem_.values.at(path)](std::int64_t cell) {
+                                  return values[at(cell)];
+                                };
+                              }};
+  for (const AnswerPolicy& own : problem.policies) cell_policies_.push_back(own.make(context));
   for (InputClass& own : classes_) {
     own.tabulate();
     class_parts_.push_back(own.parts());

@@ -28,7 +28,7 @@ class Explainer {
         partition_(partition),
         sets_(results, partition, team),
         controller_(results, team),
-        posts_(*sets_.ground().abstraction),
+        posts_(*sets_.context().abstraction),
         classes_(input_classes(results.spec(), results.inputs(),
                                results.spec().coordination.partitions[partition])) {
     for (InputClass& own : classes_) own.tabulate();
@@ -58,7 +58,7 @@ class Explainer {
 
  private:
   void add_others(std::int64_t cell, bool is_bounded, DelayExplanation& found) {
-    const ExplainGround ground{
+    const ExplainContext context{
         .spec = &results_.spec(),
         .partition = &results_.spec().coordination.partitions[partition_],
         .posts = &posts_,
@@ -73,7 +73,7 @@ class Explainer {
             }};
     for (const Answer& answer : all_answers()) {
       if (answer.explain == nullptr) continue;
-      if (Explained added = answer.explain(ground); !added.key.empty())
+      if (Explained added = answer.explain(context); !added.key.empty())
         found.others.push_back(std::move(added));
     }
   }
@@ -88,7 +88,7 @@ class Explainer {
   }
 
   [[nodiscard]] ResultPath way_out(std::int64_t cell, const std::vector<Rational>& state) const {
-    return way_out({.ground = &sets_.ground(),
+    return way_out({.context = &sets_.context(),
                     .invariance = &sets_.invariance(),
                     .classes = classes_,
                     .layers_of = &sets_.layers().layers_of,
@@ -100,7 +100,7 @@ class Explainer {
                                    const std::vector<Rational>& state) const {
     const CellRequirement asked{
         .collision_time = &sets_.invariance().collision_time, .kind = sets.kind, .layers = &layers};
-    ResultPath path = result_of(find_escape(sets, cell, state), sets_.ground(), asked, sets.number_stride);
+    ResultPath path = result_of(find_escape(sets, cell, state), sets_.context(), asked, sets.number_stride);
     if (path.steps() > 0) path.seen = follow_escape(sets, cell, state);
     return path;
   }
@@ -114,7 +114,7 @@ class Explainer {
     found.actions = controller_.actions(silence_policies(spec).front(), partition_, cell, 0);
     if (found.steps < 0 || found.steps == kNever || found.is_lower_bound) return found;
     const bool has_then = spec.silence->has_then();
-    found.path = way_out({.ground = &sets_.ground(),
+    found.path = way_out({.context = &sets_.context(),
                           .invariance = &sets_.invariance(),
                           .classes = classes_,
                           .layers_of = &sets_.layers().layers_of,
@@ -160,7 +160,7 @@ class Explainer {
                                         });
       if (!is_choice) continue;
       const bool is_forbidden = controller_.forbids(cell, u);
-      const std::int32_t steps = is_forbidden ? 0 : steps_after(posts_.post(u, sets_.ground().tubes()));
+      const std::int32_t steps = is_forbidden ? 0 : steps_after(posts_.post(u, sets_.context().tubes()));
       for (std::size_t c = 0; c < classes_.size(); ++c) {
         std::int32_t& own = worst[c][at(classes_[c].action(u))];
         own = std::min(own, steps);

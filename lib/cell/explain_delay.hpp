@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "answers/one_cell/explain_ground.hpp"
+#include "answers/one_cell/explain_context.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/process_memory.hpp"
 #include "base/thread_team.hpp"

@@ -40,21 +40,21 @@ double FileSets::bytes(const ResultsReader& results) {
 }
 
 FileSets::FileSets(const ResultsReader& results, std::size_t partition, ThreadTeam& team)
-    : results_(results), model_(make_model(results.spec())), ground_(model_) {
+    : results_(results), model_(make_model(results.spec())), context_(model_) {
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !results.spec().abstraction.between_samples;
-  ground_.abstraction =
+  context_.abstraction =
       is_stored ? results.abstraction() : build_abstraction(model_.spec(), model_.shapes(), team);
   read_cells(partition);
   if (results.spec().silence) read_silence(partition);
   if (results.spec().controller.file) read_listed();
-  ground_.beyond = safe_beyond_limits(results.spec(), *ground_.abstraction, ground_.safe, team);
+  context_.beyond = safe_beyond_limits(results.spec(), *context_.abstraction, context_.safe, team);
 }
 
 void FileSets::read_cells(std::size_t partition) {
-  const UniformGrid& grid = ground_.abstraction->grid;
+  const UniformGrid& grid = context_.abstraction->grid;
   const std::int64_t length = grid.row_length();
-  ground_.safe = CellSet(grid.rows(), length);
+  context_.safe = CellSet(grid.rows(), length);
   invariance_.invariant = CellSet(grid.rows(), length);
   Levels collision_time(grid.rows(), length, {}, {});
   Levels layers_of(grid.rows(), length, {}, {});
@@ -70,7 +70,7 @@ void FileSets::read_cells(std::size_t partition) {
     std::vector<std::uint32_t> times_of_row, layers_of_row;
     for (std::int64_t i = 0; i < length; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      if (safe[at] != 0) ground_.safe.set(r * length + i);
+      if (safe[at] != 0) context_.safe.set(r * length + i);
       if (delays[at] >= 0) invariance_.invariant.set(r * length + i);
       times_of_row.push_back(level_of_steps(times[at], 0));
       const bool is_cut_off = layers_.truncated && delays[at] == last;
@@ -84,7 +84,7 @@ void FileSets::read_cells(std::size_t partition) {
 }
 
 void FileSets::read_silence(std::size_t partition) {
-  const UniformGrid& grid = ground_.abstraction->grid;
+  const UniformGrid& grid = context_.abstraction->grid;
   const std::int64_t length = grid.row_length();
   take_sizes(read_partition_values(results_.spec(), results_, "/silence_")[partition], silence_);
   const auto last = static_cast<std::int32_t>(silence_.sizes.size()) - 1;
@@ -111,7 +111,7 @@ void FileSets::read_listed() {
   ListedController listed;
   listed.pairs.inputs = results_.inputs().count();
   listed.pairs.bytes = results_.bits(paths::kListed, all_cells(results_.grid()));
-  ground_.listed = std::move(listed);
+  context_.listed = std::move(listed);
 }
 
 const DelayLayers& FileSets::silence() const {
@@ -121,8 +121,8 @@ const DelayLayers& FileSets::silence() const {
 
 std::vector<std::int64_t> FileSets::number_stride() const {
   std::vector<std::int64_t> strides;
-  for (std::size_t i = 0; i < ground_.abstraction->grid.size(); ++i)
-    strides.push_back(ground_.abstraction->grid.stride(i));
+  for (std::size_t i = 0; i < context_.abstraction->grid.size(); ++i)
+    strides.push_back(context_.abstraction->grid.stride(i));
   return strides;
 }
 

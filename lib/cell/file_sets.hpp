@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "base/thread_team.hpp"
@@ -22,7 +22,7 @@ class FileSets {
   /// @throws ResultsError; SpecError
   FileSets(const ResultsReader& results, std::size_t partition, ThreadTeam& team);
 
-  [[nodiscard]] const Ground& ground() const { return ground_; }
+  [[nodiscard]] const AnalysisContext& context() const { return context_; }
   [[nodiscard]] const Invariance& invariance() const { return invariance_; }
   [[nodiscard]] const DelayLayers& layers() const { return layers_; }
   /// @pre the spec has `silence`
@@ -39,7 +39,7 @@ class FileSets {
 
   const ResultsReader& results_;
   Model model_;
-  Ground ground_;
+  AnalysisContext context_;
   Invariance invariance_;
   DelayLayers layers_;
   DelayLayers silence_;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {

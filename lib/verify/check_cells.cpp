@@ -13,8 +13,8 @@ namespace {
 /// One object a thread.
 class CellVisitor {
  public:
-  CellVisitor(const CheckGround& ground, const std::vector<std::unique_ptr<AnswerCheck>>& checks)
-      : cell_(ground) {
+  CellVisitor(const CheckContext& context, const std::vector<std::unique_ptr<AnswerCheck>>& checks)
+      : cell_(context) {
     for (const std::unique_ptr<AnswerCheck>& check : checks) {
       if (std::unique_ptr<CellChecker> checker = check->cell_checker())
         checkers_.push_back(std::move(checker));
@@ -33,11 +33,11 @@ class CellVisitor {
 };
 
 /// What goes over the joint inputs of a cell: once for each class of each partition, and twice for K.
-std::int64_t steps_of_cell(const CheckGround& ground) {
+std::int64_t steps_of_cell(const CheckContext& context) {
   std::int64_t times = 2;
-  for (const PartitionSpec& partition : ground.spec->coordination.partitions)
+  for (const PartitionSpec& partition : context.spec->coordination.partitions)
     times += static_cast<std::int64_t>(partition.classes.size()) + 1;
-  return times * ground.inputs->count();
+  return times * context.inputs->count();
 }
 
 /// Steps of such a loop, and cells looked at, for one unit.
@@ -45,15 +45,15 @@ constexpr std::int64_t kStepsOfUnit = 3;
 
 class AllCells {
  public:
-  AllCells(const CheckGround& ground, const std::vector<std::unique_ptr<AnswerCheck>>& checks,
+  AllCells(const CheckContext& context, const std::vector<std::unique_ptr<AnswerCheck>>& checks,
            const std::vector<std::int64_t>& cells,
            const std::function<void(std::int64_t done, std::int64_t all)>& progress, ThreadTeam& team)
-      : ground_(ground),
+      : context_(context),
         checks_(checks),
         cells_(cells),
         progress_(progress),
         team_(team),
-        count_(cells.empty() ? ground.grid->cells() : static_cast<std::int64_t>(cells.size())),
+        count_(cells.empty() ? context.grid->cells() : static_cast<std::int64_t>(cells.size())),
         visitors_(static_cast<std::size_t>(team.size())) {}
 
   std::int64_t run(Budget* budget) {
@@ -61,7 +61,7 @@ class AllCells {
       visit(0, count_);
       return done_;
     }
-    const std::int64_t steps = steps_of_cell(ground_);
+    const std::int64_t steps = steps_of_cell(context_);
     const std::int64_t block = std::clamp<std::int64_t>(kStepsOfBlock / steps, 16, 1 << 16);
     const std::int64_t blocks = (count_ + block - 1) / block;
     const std::int64_t stride = stride_of(blocks);
@@ -84,7 +84,7 @@ class AllCells {
     const std::int64_t grain = std::clamp<std::int64_t>((end - first) / 16, 1, kGrain);
     team_.for_each(end - first, grain, [&](ThreadTeam::Range range, int worker) {
       auto& visitor = visitors_[static_cast<std::size_t>(worker)];
-      if (!visitor) visitor = std::make_unique<CellVisitor>(ground_, checks_);
+      if (!visitor) visitor = std::make_unique<CellVisitor>(context_, checks_);
       for (std::int64_t i = first + range.begin; i < first + range.end; ++i)
         visitor->visit(cells_.empty() ? i : cells_[static_cast<std::size_t>(i)]);
       done_ += range.end - range.begin;
@@ -106,7 +106,7 @@ class AllCells {
     return sum;
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const std::vector<std::unique_ptr<AnswerCheck>>& checks_;
   const std::vector<std::int64_t>& cells_;
   const std::function<void(std::int64_t done, std::int64_t all)>& progress_;
@@ -118,11 +118,11 @@ class AllCells {
 
 }  // namespace
 
-std::int64_t check_cells(const CheckGround& ground, const std::vector<std::unique_ptr<AnswerCheck>>& checks,
+std::int64_t check_cells(const CheckContext& context, const std::vector<std::unique_ptr<AnswerCheck>>& checks,
                          const std::vector<std::int64_t>& cells, Budget* budget,
                          const std::function<void(std::int64_t done, std::int64_t all)>& progress,
                          ThreadTeam& team) {
-  return AllCells(ground, checks, cells, progress, team).run(budget);
+  return AllCells(context, checks, cells, progress, team).run(budget);
 }
 
 }  // namespace coordreq

@@ -43,11 +43,11 @@ class Verifier {
         team_(team),
         grid_(make_grid(spec)),
         inputs_(make_input_space(spec)),
-        ground_{
+        context_{
             .spec = &spec, .grid = &grid_, .inputs = &inputs_, .claims = &claims, .is_full = options.full} {
     for (const Answer& answer : all_answers()) {
       if (answer.check == nullptr) continue;
-      if (std::unique_ptr<AnswerCheck> check = answer.check(ground_)) checks_.push_back(std::move(check));
+      if (std::unique_ptr<AnswerCheck> check = answer.check(context_)) checks_.push_back(std::move(check));
     }
     std::stable_sort(checks_.begin(), checks_.end(),
                      [](const auto& a, const auto& b) { return a->section() < b->section(); });
@@ -206,14 +206,14 @@ class Verifier {
   void check_answers(const Posts& posts) {
     // No file stores tubes, and the contract does not say how narrow they are.
     const bool stored = result_.basis != PostBasis::computed && !result_.tubes;
-    ground_.posts_are =
+    context_.posts_are =
         stored || claims_.same_version ? PostsAre::those_of_the_result : PostsAre::perhaps_others;
-    ground_.posts = &posts;
-    ground_.tubes = tubes_ ? &*tubes_ : nullptr;
+    context_.posts = &posts;
+    context_.tubes = tubes_ ? &*tubes_ : nullptr;
     std::optional<Budget> budget;
     if (options_.budget_seconds) budget.emplace(work_of_seconds(std::max(*options_.budget_seconds, 1.0)));
     result_.cells_checked = check_cells(
-        ground_, checks_, sample_, budget ? &*budget : nullptr,
+        context_, checks_, sample_, budget ? &*budget : nullptr,
         [this](std::int64_t done, std::int64_t all) { report({.stage = "cells", .done = done, .all = all}); },
         team_);
     if (result_.cells_checked < asked_) {
@@ -236,7 +236,7 @@ class Verifier {
   ThreadTeam& team_;
   UniformGrid grid_;
   InputSpace inputs_;
-  CheckGround ground_;
+  CheckContext context_;
   std::vector<std::unique_ptr<AnswerCheck>> checks_;  ///< in the order of the report
   std::optional<Budget> budget_;                      ///< of reachable sets
   std::int64_t asked_ = 0;                            ///< cells that are to be checked

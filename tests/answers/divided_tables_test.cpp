@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "answers/answers.hpp"
-#include "answers/ground/answer.hpp"
+#include "answers/context/answer.hpp"
 #include "answers/plan.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
@@ -40,14 +40,14 @@ TEST(DividedTables, HoldWhatTheRowsOfARankNeed) {
   ThreadRanks::run(kRanks, [&](Ranks& ranks) {
     ThreadTeam team(2);
     Answers answers(model, &ranks);
-    run_stages(ground_stages(spec), answers, {.team = team});
-    const Ground& ground = answers.ground;
-    const Abstraction& own = *ground.abstraction;
+    run_stages(context_stages(spec), answers, {.team = team});
+    const AnalysisContext& context = answers.context;
+    const Abstraction& own = *context.abstraction;
     const std::size_t a = own.grid.dimension_of(0), c = own.grid.dimension_of(2);
-    const RowShare::Range rows = ground.share->own();
+    const RowShare::Range rows = context.share->own();
     const std::int64_t cells = (rows.end - rows.begin) * own.grid.row_length();
     EXPECT_EQ(std::ssize(own.tables[a].entries), 3 * cells);
-    EXPECT_EQ(std::ssize(ground.engine->slices()[a].ids), 3 * (rows.end - rows.begin));
+    EXPECT_EQ(std::ssize(context.engine->slices()[a].ids), 3 * (rows.end - rows.begin));
     EXPECT_EQ(own.tables[c].entries.size(), whole.tables[c].entries.size());
     for (std::int64_t x = rows.begin * own.grid.row_length(); x < rows.end * own.grid.row_length(); ++x) {
       for (std::int64_t u = 0; u < 3; ++u) {

@@ -132,12 +132,12 @@ void sweep(benchmark::State& state, const std::string& name) {
   std::vector<Stage> stages = answer_stages(spec);
   std::erase_if(stages, [](const Stage& stage) { return stage.name.starts_with("layers"); });
   run_stages(stages, answers, {.team = team});
-  const RowEngine& engine = *answers.ground.engine;
+  const RowEngine& engine = *answers.context.engine;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const std::vector<InputClass> classes = single_classes(engine.abstraction().inputs);
   const ActionGrouping grouping(engine, classes, team);
-  const Projections projections(answers.get<Controller>(), grouping, *answers.ground.hull, team);
-  IndependentActions<Level> actions(projections, *answers.ground.hull, invariant, team.size());
+  const Projections projections(answers.get<Controller>(), grouping, *answers.context.hull, team);
+  IndependentActions<Level> actions(projections, *answers.context.hull, invariant, team.size());
   auto levels = engine.make_levels<Level>(invariant, team);
   const ExpectedRisk expected({{0, Rational(9, 10), Rational(9, 10)}, {1, Rational(1, 10), Rational(1, 10)}});
   const std::vector<RiskRows> risks = first_risks(invariant, 2, nullptr);

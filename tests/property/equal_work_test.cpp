@@ -45,7 +45,7 @@ CellSet corner(const FastAnalysis& fast, const CellSet& invariant) {
 
 /// @param tiles null: no equal work is looked for
 Found find(const FastAnalysis& fast, const Tiles* tiles, ThreadTeam& team) {
-  const ProblemSpec& spec = fast.answers->ground.spec;
+  const ProblemSpec& spec = fast.answers->context.spec;
   const Synthesis synthesis = spec.controller.synthesis;
   const Invariance k =
       find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {}, team, {.tiles = tiles});
@@ -98,7 +98,7 @@ TEST(EqualWork, GivesTheSameLevels) {
     const Copied copied = expect_same_work(fast, team);
     RC_CLASSIFY(copied.rows, "rows copied");
     RC_CLASSIFY(copied.units, "units copied");
-    RC_CLASSIFY(fast.answers->ground.tiles.has_value(), "found to be worth it");
+    RC_CLASSIFY(fast.answers->context.tiles.has_value(), "found to be worth it");
   }));
 }
 

@@ -253,7 +253,7 @@ TEST(Goals, ThatEndTheTaskTellRowsApartThatAreAlikeInAllElse) {
     "safe": "true", "goal": {"where": "y == 7 and x == 0", "then": "over"}})json",
                                      "alike");
   const FastAnalysis fast(spec, team);
-  ASSERT_TRUE(fast.answers->ground.tiles.has_value());
+  ASSERT_TRUE(fast.answers->context.tiles.has_value());
   for (std::int64_t x = 0; x < fast.safe.cells(); ++x) {
     const bool is_there = x / 10 == 7;
     EXPECT_EQ(fast.invariance.invariant.test(x), is_there || x % 10 > 0) << x;
@@ -274,7 +274,7 @@ TEST(Goals, OfOneAgentMakeItAnother) {
     "safe": "true", "goal": {"where": "p == 0", "then": "over"}})json",
                                      "race");
   const FastAnalysis fast(spec, team);
-  EXPECT_TRUE(fast.answers->ground.like_agents.empty());
+  EXPECT_TRUE(fast.answers->context.like_agents.empty());
   for (std::int64_t x = 0; x < fast.safe.cells(); ++x) {
     const std::int64_t p = x / 12, q = x / 2 % 6;
     EXPECT_EQ(fast.invariance.invariant.test(x), q >= (p + 1) / 2) << x;

@@ -37,8 +37,8 @@ void expect_same_cells(const FastAnalysis& fast, const FastAnalysis& joined) {
 /// Work that was broken off without symmetry, some rows of it done and some not.
 void expect_same_when_resumed(const FastAnalysis& fast, ThreadTeam& team) {
   const std::optional<RowSymmetry> symmetry =
-      fast.answers->ground.symmetry(single_classes(fast.abstraction.inputs));
-  const Synthesis synthesis = fast.answers->ground.spec.controller.synthesis;
+      fast.answers->context.symmetry(single_classes(fast.abstraction.inputs));
+  const Synthesis synthesis = fast.answers->context.spec.controller.synthesis;
   if (!symmetry) return;
   auto levels = fast.engine.make_levels<std::uint8_t>(fast.safe, team);
   for (std::int64_t row = 0; row < levels.rows(); ++row) {
@@ -47,7 +47,7 @@ void expect_same_when_resumed(const FastAnalysis& fast, ThreadTeam& team) {
   LevelMap begun(std::move(levels));
   const Invariance again =
       find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {.resumed = &begun}, team,
-                      {.symmetry = &*symmetry}, fast.answers->ground.over_or_null());
+                      {.symmetry = &*symmetry}, fast.answers->context.over_or_null());
   for (std::int64_t x = 0; x < fast.safe.cells(); ++x)
     RC_ASSERT(again.collision_time.at(x) == fast.invariance.collision_time.at(x));
 }
@@ -55,11 +55,11 @@ void expect_same_when_resumed(const FastAnalysis& fast, ThreadTeam& team) {
 void classify(const FastAnalysis& fast) {
   const std::size_t last = fast.layers.size() - 1;
   const bool has_layers = fast.layers[last].sizes.size() > 1;
-  RC_CLASSIFY(fast.answers->ground.like_agents.size() == 2, "two alike");
-  RC_CLASSIFY(fast.answers->ground.like_agents.size() == 3, "three alike");
+  RC_CLASSIFY(fast.answers->context.like_agents.size() == 2, "two alike");
+  RC_CLASSIFY(fast.answers->context.like_agents.size() == 3, "three alike");
   RC_CLASSIFY(fast.actions[last].symmetry.has_value(), "rows found once");
   RC_CLASSIFY(fast.actions[last].symmetry && has_layers, "rows found once, with layers");
-  RC_CLASSIFY(fast.actions[last].symmetry && fast.answers->ground.tiles, "and tiles");
+  RC_CLASSIFY(fast.actions[last].symmetry && fast.answers->context.tiles, "and tiles");
   RC_CLASSIFY(fast.actions[last].symmetry && !fast.abstraction.tubes.empty(), "and tubes");
 }
 

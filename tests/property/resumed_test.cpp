@@ -159,7 +159,7 @@ TEST(Resumed, SilenceIsTheSameFromAnyStep) {
     const ProblemSpec spec = read_spec(with_silence(perhaps_with_end(draw_problem())), "random");
     const FastAnalysis fast(spec, team);
     const CellSet& set = silence_set(*fast.answers);
-    const CellSet* const over = fast.answers->ground.over_or_null();
+    const CellSet* const over = fast.answers->context.over_or_null();
     const CellSet going_on = over == nullptr ? set : part_of(set, *over, false, nullptr);
     bool goes_on = false;
     for (std::size_t p = 0; p < fast.layers.size(); ++p) {

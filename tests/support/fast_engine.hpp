@@ -25,11 +25,11 @@ struct FastAnalysis {
                const PackedPairs* listed = nullptr)
       : model(make_model(spec)),
         answers(found(model, std::move(given), team, listed)),
-        abstraction(*answers->ground.abstraction),
-        safe(answers->ground.safe),
-        beyond(answers->ground.beyond),
-        engine(*answers->ground.engine),
-        hull(*answers->ground.hull),
+        abstraction(*answers->context.abstraction),
+        safe(answers->context.safe),
+        beyond(answers->context.beyond),
+        engine(*answers->context.engine),
+        hull(*answers->context.hull),
         invariance(answers->get<Invariance>()),
         controller(answers->get<Controller>()),
         layers(answers->get<PartitionLayers>().partitions) {
@@ -76,9 +76,9 @@ struct FastAnalysis {
   static std::unique_ptr<Answers> found(const Model& model, Abstraction given, ThreadTeam& team,
                                         const PackedPairs* listed) {
     auto result = std::make_unique<Answers>(model);
-    Ground& ground = result->ground;
-    if (listed != nullptr) ground.listed = ListedController{.pairs = *listed};
-    ground.abstraction = std::move(given);
+    AnalysisContext& context = result->context;
+    if (listed != nullptr) context.listed = ListedController{.pairs = *listed};
+    context.abstraction = std::move(given);
     std::vector<Stage> stages = answer_stages(model.spec());
     stages.erase(stages.begin());  // "abstraction", which is there already
     run_stages(stages, *result, {.team = team});

@@ -35,21 +35,21 @@ ClassFibres fibres_of(const ProblemSpec& spec, const UniformGrid& grid, const Pa
 /// The actions and the sight of the classes of a partition, and the layers of agents who see everything.
 struct BlindSight {
   BlindSight(const Answers& answers, std::size_t p, const StageWork& work)
-      : grouping(*answers.ground.engine,
-                 input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
-                               answers.ground.spec.coordination.partitions[p]),
+      : grouping(*answers.context.engine,
+                 input_classes(answers.context.spec, answers.context.abstraction->inputs,
+                               answers.context.spec.coordination.partitions[p]),
                  work.team),
-        projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, work.team,
-                    answers.ground.equal(), true),
-        fibres(fibres_of(answers.ground.spec, answers.ground.engine->grid(),
-                         answers.ground.spec.coordination.partitions[p])),
+        projections(answers.get<GoingOn>().controller, grouping, *answers.context.hull, work.team,
+                    answers.context.equal(), true),
+        fibres(fibres_of(answers.context.spec, answers.context.engine->grid(),
+                         answers.context.spec.coordination.partitions[p])),
         sources{projections, *answers.get<GoingOn>().controller.invariant, fibres},
         problem{sources,
-                *answers.ground.hull,
+                *answers.context.hull,
                 answers.get<PartitionLayers>().partitions[p],
-                answers.ground.spec.coordination.max_delay,
-                answers.ground.tiles.has_value(),
-                answers.ground.over_or_null()} {}
+                answers.context.spec.coordination.max_delay,
+                answers.context.tiles.has_value(),
+                answers.context.over_or_null()} {}
   BlindSight(const BlindSight&) = delete;
   BlindSight& operator=(const BlindSight&) = delete;
   ~BlindSight() = default;
@@ -62,32 +62,32 @@ struct BlindSight {
 };
 
 LevelBounds bounds_of(const Answers& answers, std::int64_t more) {
-  const std::optional<std::int64_t>& most = answers.ground.spec.coordination.max_delay;
-  const std::int64_t steps = answers.ground.engine->grid().points();
+  const std::optional<std::int64_t>& most = answers.context.spec.coordination.max_delay;
+  const std::int64_t steps = answers.context.engine->grid().points();
   return {&answers.get<Invariance>().invariant, (most ? std::min(*most, steps) : steps) + more};
 }
 
 void find_blind_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   if (answers.find<Blind>() == nullptr)
-    answers.add(Blind{std::vector<BlindPartition>(ground.spec.coordination.partitions.size())});
+    answers.add(Blind{std::vector<BlindPartition>(context.spec.coordination.partitions.size())});
   DelayLayers& own = answers.get<Blind>().partitions[p].layers;
-  find_or_take_levels(work, *ground.engine, bounds_of(answers, 0), own.layers_of,
+  find_or_take_levels(work, *context.engine, bounds_of(answers, 0), own.layers_of,
                       [&](const WaveWatch& watch) {
                         work.enter_part("projections");
                         const BlindSight partition(answers, p, work);
                         work.enter_part("");
                         return find_blind_levels(partition.problem, watch, work.team, own.counts);
                       });
-  follow_from_levels(ground.spec.coordination.max_delay, work.team, own);
+  follow_from_levels(context.spec.coordination.max_delay, work.team, own);
 }
 
 /// Gives tables their sizes, before they are loaded.
 void size_tables(const Answers& answers, std::size_t p, std::vector<SilentTable>& tables) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const PartitionSpec& partition = spec.coordination.partitions[p];
-  const ClassFibres fibres = fibres_of(spec, answers.ground.engine->grid(), partition);
-  const std::vector<InputClass> classes = input_classes(spec, answers.ground.abstraction->inputs, partition);
+  const ClassFibres fibres = fibres_of(spec, answers.context.engine->grid(), partition);
+  const std::vector<InputClass> classes = input_classes(spec, answers.context.abstraction->inputs, partition);
   tables.assign(fibres.size(), {});
   for (std::size_t c = 0; c < tables.size(); ++c) {
     if (!fibres[c]) continue;
@@ -116,12 +116,12 @@ std::int64_t steps_of_level(Level level, std::int64_t top) {
 }
 
 /// Cells of K where both delays are the same. Together.
-std::int64_t count_equal(const Ground& ground, const CellSet& invariant, const DelayLayers& one,
+std::int64_t count_equal(const AnalysisContext& context, const CellSet& invariant, const DelayLayers& one,
                          const DelayLayers& other) {
   std::int64_t equal = 0;
   one.layers_of.visit([&](const auto& first) {
     other.layers_of.visit([&](const auto& second) {
-      const RowShare::Range own = own_rows(ground.shared_rows(), first.rows());
+      const RowShare::Range own = own_rows(context.shared_rows(), first.rows());
       for (std::int64_t r = own.begin; r < own.end; ++r) {
         const auto* const a = first.row(r);
         const auto* const b = second.row(r);
@@ -131,15 +131,15 @@ std::int64_t count_equal(const Ground& ground, const CellSet& invariant, const D
       }
     });
   });
-  return sum_of_all(ground.shared_rows(), equal);
+  return sum_of_all(context.shared_rows(), equal);
 }
 
 /// Finds the levels of blind delays, and the tables, from the levels of B.
 void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   BlindPartition& own = answers.get<Blind>().partitions[p];
   const auto serialise_all = [&answers, &own](Archive& archive) {
-    serialise(archive, *answers.ground.engine, bounds_of(answers, 1), own.delays.layers_of);
+    serialise(archive, *answers.context.engine, bounds_of(answers, 1), own.delays.layers_of);
     serialise_tables(archive, std::min(own.table_steps(), SilentTable::kMostSteps), own.tables);
   };
   size_tables(answers, p, own.tables);
@@ -158,7 +158,7 @@ void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work
   const LevelMap::Histogram found = own.delays.layers_of.histogram(work.team);
   own.greatest = std::max<std::int64_t>(0, std::ssize(found.finite) - 2);
   if (own.layers.truncated) own.greatest = std::max<std::int64_t>(own.greatest, own.layers.top_delay());
-  own.as_much = count_equal(ground, answers.get<Invariance>().invariant, own.delays,
+  own.as_much = count_equal(context, answers.get<Invariance>().invariant, own.delays,
                             answers.get<PartitionLayers>().partitions[p]);
   if (work.store != nullptr) work.store->finish(serialise_all);
 }
@@ -193,7 +193,7 @@ std::vector<Stage> blind_stages(const ProblemSpec& spec) {
 }
 
 void summarise_blind(const Answers& answers, Json& summary, Json& work) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   if (!has_limited_sight(spec)) return;
   for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
     const DelayLayers& layers = blind_layers(answers, p);
@@ -211,7 +211,7 @@ void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info) 
 }
 
 Warnings advise_on_blind(const Answers& answers) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   if (!has_limited_sight(spec)) return {};
   std::vector<std::string> others;
   if (spec.goal) others.emplace_back("goal");

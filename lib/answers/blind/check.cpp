@@ -23,15 +23,15 @@ namespace {
 
 /// A class of a partition: the states that it sees, its table in the file, and its actions at each cell.
 struct BlindClass {
-  BlindClass(const CheckGround& ground, const PartitionSpec& partition, std::size_t c)
-      : name(class_name(ground.spec->agents, partition.classes[c])),
-        own(class_of(*ground.spec, *ground.inputs, partition.classes[c])),
-        seen(seen_states(*ground.spec, partition.classes[c])),
-        grid(*ground.grid) {
+  BlindClass(const CheckContext& context, const PartitionSpec& partition, std::size_t c)
+      : name(class_name(context.spec->agents, partition.classes[c])),
+        own(class_of(*context.spec, *context.inputs, partition.classes[c])),
+        seen(seen_states(*context.spec, partition.classes[c])),
+        grid(*context.grid) {
     own.tabulate();
     for (const std::size_t i : seen) fibres *= grid[i].count;
     if (seen.size() < grid.size())
-      table = &ground.claims->at("/silent/" + partition.name + "/" + name).integers;
+      table = &context.claims->at("/silent/" + partition.name + "/" + name).integers;
     admitted.assign(at(grid.cells() * own.bytes()), 0);
   }
 
@@ -71,18 +71,18 @@ struct BlindClass {
 
 /// Data of one partition that all threads share.
 struct BlindPartitionCheck {
-  BlindPartitionCheck(const CheckGround& ground, std::size_t p)
-      : claims(*ground.spec, *ground.claims, p, blind_layers_meant()),
-        delays(ground.claims->values("/blind_delay", p)),
-        of_sight(ground.claims->values("/delay", p)),
+  BlindPartitionCheck(const CheckContext& context, std::size_t p)
+      : claims(*context.spec, *context.claims, p, blind_layers_meant()),
+        delays(context.claims->values("/blind_delay", p)),
+        of_sight(context.claims->values("/delay", p)),
         delay("blind delay " + claims.partition.name),
         countdown("blind countdown " + claims.partition.name),
         first("first blind layer " + claims.partition.name),
         tables("silent tables " + claims.partition.name) {
-    if (claims.fixed_point_index < 0) most = ground.spec->coordination.max_delay;
+    if (claims.fixed_point_index < 0) most = context.spec->coordination.max_delay;
     if (claims.partition.classes.size() == 1) return;
     for (std::size_t c = 0; c < claims.partition.classes.size(); ++c)
-      classes.emplace_back(ground, claims.partition, c);
+      classes.emplace_back(context, claims.partition, c);
   }
 
   /// The greatest k with x in B_k, as claimed; kForever if there is no greatest.
@@ -102,8 +102,8 @@ struct BlindPartitionCheck {
 
 class BlindChecker : public CellChecker {
  public:
-  BlindChecker(const CheckGround& ground, std::deque<BlindPartitionCheck>& partitions)
-      : ground_(ground), partitions_(partitions) {}
+  BlindChecker(const CheckContext& context, std::deque<BlindPartitionCheck>& partitions)
+      : context_(context), partitions_(partitions) {}
 
   void check(CheckedCell& cell) override {
     for (BlindPartitionCheck& own : partitions_) {
@@ -137,7 +137,7 @@ class BlindChecker : public CellChecker {
     if (own.classes.empty()) return own.of_sight[cell.at()];
     bool any = cell.is_over();
     std::int32_t worst = kForever;
-    const std::int64_t inputs = cell.is_over() ? 0 : ground_.inputs->count();
+    const std::int64_t inputs = cell.is_over() ? 0 : context_.inputs->count();
     for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
       const bool is_chosen = std::ranges::all_of(
           own.classes, [&](const BlindClass& one) { return one.has(cell.number(), one.own.action(u)); });
@@ -154,7 +154,7 @@ class BlindChecker : public CellChecker {
   void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
     tally.add_checked(1);
     if (claimed == expected) return;
-    if (ground_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
+    if (context_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
     add_wrong_steps(tally, cell, claimed, expected);
   }
 
@@ -167,7 +167,7 @@ class BlindChecker : public CellChecker {
       for (std::int64_t k = 1; k <= std::min<std::int64_t>(depth, one.rows()); ++k) {
         own.tables.add_checked(1);
         if (!has_more(one, one.place(k, fibre), cell.number())) continue;
-        if (ground_.sound_only()) {
+        if (context_.sound_only()) {
           own.tables.add_unproven();
           continue;
         }
@@ -186,31 +186,31 @@ class BlindChecker : public CellChecker {
     return false;
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   std::deque<BlindPartitionCheck>& partitions_;
 };
 
 class BlindCheck : public AnswerCheck {
  public:
-  explicit BlindCheck(const CheckGround& ground) : AnswerCheck(CheckSection::steps), ground_(ground) {
-    for (std::size_t p = 0; p < ground.spec->coordination.partitions.size(); ++p)
-      partitions_.emplace_back(ground, p);
+  explicit BlindCheck(const CheckContext& context) : AnswerCheck(CheckSection::steps), context_(context) {
+    for (std::size_t p = 0; p < context.spec->coordination.partitions.size(); ++p)
+      partitions_.emplace_back(context, p);
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::vector<Finding> findings;
     std::size_t longest = 1;
     for (const BlindPartitionCheck& own : partitions_)
-      findings.push_back(compare_layers(*ground_.spec, *ground_.claims, own.claims, longest));
+      findings.push_back(compare_layers(*context_.spec, *context_.claims, own.claims, longest));
     sizes.expect("length of /blind_layer", partitions_.front().claims.layer_sizes.size(), longest);
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<BlindChecker>(ground_, partitions_);
+    return std::make_unique<BlindChecker>(context_, partitions_);
   }
   void check_all(ThreadTeam& /*team*/) override {
     for (BlindPartitionCheck& own : partitions_) {
-      if (own.classes.empty() || own.looked_at < ground_.grid->cells()) continue;
+      if (own.classes.empty() || own.looked_at < context_.grid->cells()) continue;
       if (own.most != 0) check_first(own);
       for (const BlindClass& one : own.classes) {
         if (one.table != nullptr) check_table(own, one);
@@ -231,19 +231,19 @@ class BlindCheck : public AnswerCheck {
 
  private:
   void note(Tally& tally, std::int64_t number, const std::string& text) const {
-    if (ground_.sound_only()) return tally.add_unproven();
+    if (context_.sound_only()) return tally.add_unproven();
     tally.add_wrong(number, [&] { return text; });
   }
 
   /// As claimed: the cell is in a goal that ends the task. It is in every B_k, and removes no action from its
   /// fibres.
   [[nodiscard]] bool is_over(std::int64_t cell) const {
-    return ground_.spec->ends_at_goal && ground_.claims->values("/arrival")[at(cell)] == 0;
+    return context_.spec->ends_at_goal && context_.claims->values("/arrival")[at(cell)] == 0;
   }
 
   /// B_1 by its definition, from Z_1 as claimed.
   void check_first(BlindPartitionCheck& own) const {
-    const std::int64_t cells = ground_.grid->cells();
+    const std::int64_t cells = context_.grid->cells();
     std::vector<std::uint8_t> left(at(cells), 0);
     for (std::int64_t x = 0; x < cells; ++x) left[at(x)] = own.of_sight[at(x)] >= 1 && !is_over(x) ? 1 : 0;
     for (const BlindClass& one : own.classes) leave_common(one, left);
@@ -251,7 +251,7 @@ class BlindCheck : public AnswerCheck {
     for (std::int64_t x = 0; x < cells; ++x) {
       if (is_over(x) || (left[at(x)] != 0) == (own.claims.delay[at(x)] >= 1)) continue;
       const char* const expected = left[at(x)] != 0 ? "" : "not ";
-      note(own.first, x, fmt::format("{}: expected {}in B_1", place_of(*ground_.grid, x), expected));
+      note(own.first, x, fmt::format("{}: expected {}in B_1", place_of(*context_.grid, x), expected));
     }
   }
 
@@ -282,7 +282,7 @@ class BlindCheck : public AnswerCheck {
     const std::int64_t rows = one.rows(), bytes = one.own.bytes();
     CommonActions common{std::vector<std::uint8_t>(one.table->size(), 0xFF),
                          std::vector<std::uint8_t>(at(rows * one.fibres), 0)};
-    for (std::int64_t x = 0; x < ground_.grid->cells(); ++x) {
+    for (std::int64_t x = 0; x < context_.grid->cells(); ++x) {
       const std::int64_t k = std::min<std::int64_t>(own.depth(x), rows);
       if (k < 1 || is_over(x)) continue;
       const std::int64_t fibre = one.fibre(x);
@@ -294,7 +294,7 @@ class BlindCheck : public AnswerCheck {
       for (std::int64_t fibre = 0; fibre < one.fibres; ++fibre) {
         own.tables.add_checked(1);
         if (is_row(one, k, fibre, common)) continue;
-        note(own.tables, ground_.grid->cells() + k * one.fibres + fibre,
+        note(own.tables, context_.grid->cells() + k * one.fibres + fibre,
              one.words(k, fibre) + ": other actions than all of its cells have");
       }
     }
@@ -314,15 +314,15 @@ class BlindCheck : public AnswerCheck {
     return is_same;
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   std::deque<BlindPartitionCheck> partitions_;
 };
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_blind(const CheckGround& ground) {
-  if (!has_limited_sight(*ground.spec)) return nullptr;
-  return std::make_unique<BlindCheck>(ground);
+std::unique_ptr<AnswerCheck> check_blind(const CheckContext& context) {
+  if (!has_limited_sight(*context.spec)) return nullptr;
+  return std::make_unique<BlindCheck>(context);
 }
 
 double blind_check_memory(const ProblemSpec& spec) {

@@ -47,17 +47,17 @@ std::int64_t count_common(const std::vector<bool>& one, const std::vector<bool>&
 
 class SightFinder {
  public:
-  explicit SightFinder(const ExplainGround& ground)
-      : ground_(ground),
-        grid_(ground.posts->grid()),
-        delay_(ground.values(paths::kDelay)),
-        countdown_(ground.values(paths::kBlindCountdown)),
-        classes_(input_classes(*ground.spec, ground.posts->inputs(), *ground.partition)) {}
+  explicit SightFinder(const ExplainContext& context)
+      : context_(context),
+        grid_(context.posts->grid()),
+        delay_(context.values(paths::kDelay)),
+        countdown_(context.values(paths::kBlindCountdown)),
+        classes_(input_classes(*context.spec, context.posts->inputs(), *context.partition)) {}
 
   /// A cell of Z_1 that is not in B_1, at the end of so many silent steps. There always is one, if the delay
   /// is longer.
   [[nodiscard]] std::optional<std::int64_t> end_of_silence(std::int32_t steps) {
-    std::int64_t cell = ground_.cell;
+    std::int64_t cell = context_.cell;
     for (std::int32_t left = steps; left > 0; --left) {
       const std::optional<std::int64_t> next = next_with(cell, left - 1);
       if (!next) return std::nullopt;
@@ -68,13 +68,13 @@ class SightFinder {
 
   /// The two cells whose actions have least in common, the first of equals.
   [[nodiscard]] std::optional<Confusion> find(std::int64_t cell) const {
-    const Sets own = ground_.projections(cell);
+    const Sets own = context_.projections(cell);
     std::optional<Confusion> least;
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      if (!has_silent_table(*ground_.spec, *ground_.partition, c)) continue;
+      if (!has_silent_table(*context_.spec, *context_.partition, c)) continue;
       for (const std::int64_t other : fibre(c, cell)) {
         if (other == cell || delay_(other) < 1 || is_over(other)) continue;
-        const std::vector<bool> actions = ground_.projections(other)[c];
+        const std::vector<bool> actions = context_.projections(other)[c];
         const std::int64_t common = count_common(own[c], actions);
         if (common == std::count(actions.begin(), actions.end(), true)) continue;  // any action serves there
         if (least && common >= least->common) continue;
@@ -88,15 +88,15 @@ class SightFinder {
  private:
   /// Whether a goal that ends the task is reached at the cell: then nobody chooses anything.
   [[nodiscard]] bool is_over(std::int64_t cell) const {
-    return ground_.spec->ends_at_goal && ground_.values(paths::kArrival)(cell) == 0;
+    return context_.spec->ends_at_goal && context_.values(paths::kArrival)(cell) == 0;
   }
 
   /// The first cell found that can follow under IND_C and has this countdown.
   std::optional<std::int64_t> next_with(std::int64_t cell, std::int32_t countdown) {
-    const Sets sets = ground_.projections(cell);
+    const Sets sets = context_.projections(cell);
     std::optional<std::int64_t> found;
-    ground_.posts->move_to(cell);
-    for (std::int64_t u = 0; u < ground_.posts->inputs().count() && !found; ++u) {
+    context_.posts->move_to(cell);
+    for (std::int64_t u = 0; u < context_.posts->inputs().count() && !found; ++u) {
       bool is_chosen = true;
       for (std::size_t c = 0; c < classes_.size() && is_chosen; ++c)
         is_chosen = sets[c][at(classes_[c].action(u))];
@@ -104,7 +104,7 @@ class SightFinder {
       std::vector<IndexRange> box;
       bool has_gone = false;
       for (std::size_t i = 0; i < grid_.size(); ++i) {
-        const ResolvedRange range = ground_.posts->resolved(i, u);
+        const ResolvedRange range = context_.posts->resolved(i, u);
         has_gone = has_gone || range.blocked || range.all_left();
         box.push_back(range.inside);
       }
@@ -119,7 +119,7 @@ class SightFinder {
 
   /// Cells of the fibre of a class, ascending, at most kMostCells.
   [[nodiscard]] std::vector<std::int64_t> fibre(std::size_t c, std::int64_t cell) const {
-    const std::vector<std::size_t> seen = seen_states(*ground_.spec, ground_.partition->classes[c]);
+    const std::vector<std::size_t> seen = seen_states(*context_.spec, context_.partition->classes[c]);
     std::vector<std::size_t> unseen;
     std::vector<std::int64_t> counts;
     std::int64_t first = cell;
@@ -139,7 +139,7 @@ class SightFinder {
     return cells;
   }
 
-  const ExplainGround& ground_;
+  const ExplainContext& context_;
   const UniformGrid& grid_;
   CellValue delay_, countdown_;
   std::vector<InputClass> classes_;
@@ -176,32 +176,32 @@ std::string steps_words(std::int32_t steps) {
   return steps == kUnbounded ? "for ever" : count_of(steps, "step");
 }
 
-void add_confusion(const ExplainGround& ground, const Confusion& found, Explained& result) {
-  const std::vector<std::int32_t>& own = ground.partition->classes[found.class_number];
-  const std::string name = class_name(ground.spec->agents, own);
-  const UniformGrid& grid = ground.posts->grid();
+void add_confusion(const ExplainContext& context, const Confusion& found, Explained& result) {
+  const std::vector<std::int32_t>& own = context.partition->classes[found.class_number];
+  const std::string name = class_name(context.spec->agents, own);
+  const UniformGrid& grid = context.posts->grid();
   (*result.found)["class"] = name;
   (*result.found)["cells"] = {
       {{"state", centre_json(grid, found.cell)}, {"actions", actions_json(found.actions)}},
       {{"state", centre_json(grid, found.other)}, {"actions", actions_json(found.others_actions)}}};
   result.sentences.push_back(
       fmt::format("It may end at {}, where {} has {}; but it cannot tell that from {}, where it has {}.",
-                  centre_words(grid, found.cell), name, action_words(*ground.spec, own, found.actions),
-                  centre_words(grid, found.other), action_words(*ground.spec, own, found.others_actions)));
+                  centre_words(grid, found.cell), name, action_words(*context.spec, own, found.actions),
+                  centre_words(grid, found.other), action_words(*context.spec, own, found.others_actions)));
 }
 
 }  // namespace
 
-Explained explain_blind(const ExplainGround& ground) {
-  if (!has_limited_sight(*ground.spec)) return {};
-  const std::int32_t blind = ground.values(paths::kBlindDelay)(ground.cell);
-  const bool is_less = blind >= 0 && blind < ground.delay;
-  const bool is_counted = is_less && ground.delay != kUnbounded;
+Explained explain_blind(const ExplainContext& context) {
+  if (!has_limited_sight(*context.spec)) return {};
+  const std::int32_t blind = context.values(paths::kBlindDelay)(context.cell);
+  const bool is_less = blind >= 0 && blind < context.delay;
+  const bool is_counted = is_less && context.delay != kUnbounded;
   Explained result{.key = "sight", .found = std::make_shared<Json>(Json::object())};
   *result.found = {{"blind_delay", steps_json(blind)},
-                   {"steps_less", is_counted                            ? Json(ground.delay - blind)
-                                  : blind == ground.delay && blind >= 0 ? Json(0)
-                                                                        : Json()},
+                   {"steps_less", is_counted                             ? Json(context.delay - blind)
+                                  : blind == context.delay && blind >= 0 ? Json(0)
+                                                                         : Json()},
                    {"class", Json()},
                    {"cells", Json::array()}};
   if (blind < 0) return result;
@@ -211,12 +211,12 @@ Explained explain_blind(const ExplainGround& ground) {
   }
   result.sentences = {
       is_counted ? fmt::format("Without sight of the others it is {} less: {}.",
-                               count_of(ground.delay - blind, "step"), steps_words(blind))
+                               count_of(context.delay - blind, "step"), steps_words(blind))
                  : fmt::format("Without sight of the others silence ends after {}.", steps_words(blind))};
-  SightFinder finder(ground);
+  SightFinder finder(context);
   const std::optional<std::int64_t> end = finder.end_of_silence(blind);
   const std::optional<Confusion> found = end ? finder.find(*end) : std::nullopt;
-  if (found) add_confusion(ground, *found, result);
+  if (found) add_confusion(context, *found, result);
   return result;
 }
 

@@ -70,7 +70,7 @@ ResultArray table_array(const SilentTable& table, std::int64_t layers) {
 }
 
 void fill_tables(const Answers& answers, FieldValues& values) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const Blind* const blind = answers.find<Blind>();
   if (blind == nullptr) return;
   std::int64_t longest = 0;
@@ -127,10 +127,10 @@ Fields blind_fields(const ProblemSpec& spec) {
 }
 
 void fill_blind_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   if (!has_limited_sight(spec)) return;
   const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.ground.order;
+  const CellOrder& order = *answers.context.order;
   const std::size_t count = spec.coordination.partitions.size();
   std::vector<const DelayLayers*> all;
   std::int64_t longest_delay = 0, longest_countdown = 0;
@@ -154,13 +154,13 @@ void fill_blind_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues
 }
 
 const DelayLayers& blind_layers(const Answers& answers, std::size_t p) {
-  const bool is_one_class = answers.ground.spec.coordination.partitions[p].classes.size() == 1;
+  const bool is_one_class = answers.context.spec.coordination.partitions[p].classes.size() == 1;
   return is_one_class ? answers.get<PartitionLayers>().partitions[p]
                       : answers.get<Blind>().partitions[p].layers;
 }
 
 const DelayLayers& blind_delays(const Answers& answers, std::size_t p) {
-  const bool is_one_class = answers.ground.spec.coordination.partitions[p].classes.size() == 1;
+  const bool is_one_class = answers.context.spec.coordination.partitions[p].classes.size() == 1;
   return is_one_class ? answers.get<PartitionLayers>().partitions[p]
                       : answers.get<Blind>().partitions[p].delays;
 }

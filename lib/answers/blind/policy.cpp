@@ -16,13 +16,13 @@ namespace {
 
 class BlindPolicy : public CellPolicy {
  public:
-  explicit BlindPolicy(const PolicyGround& ground)
-      : posts_(*ground.posts), tables_(ground.tables), countdown_(ground.values(paths::kBlindCountdown)) {
-    const ProblemSpec& spec = *ground.spec;
-    for (std::size_t c = 0; c < ground.partition->classes.size(); ++c) {
-      const bool has_table = has_silent_table(spec, *ground.partition, c);
-      own_.push_back({.table = has_table ? paths::silent(spec, *ground.partition, c) : "",
-                      .seen = seen_states(spec, ground.partition->classes[c])});
+  explicit BlindPolicy(const PolicyContext& context)
+      : posts_(*context.posts), tables_(context.tables), countdown_(context.values(paths::kBlindCountdown)) {
+    const ProblemSpec& spec = *context.spec;
+    for (std::size_t c = 0; c < context.partition->classes.size(); ++c) {
+      const bool has_table = has_silent_table(spec, *context.partition, c);
+      own_.push_back({.table = has_table ? paths::silent(spec, *context.partition, c) : "",
+                      .seen = seen_states(spec, context.partition->classes[c])});
     }
   }
 
@@ -89,8 +89,8 @@ std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
            .delay = paths::kBlindDelay,
            .trigger = paths::kBlindCountdown,
            .is_on_request = true,
-           .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
-             return std::make_unique<BlindPolicy>(ground);
+           .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
+             return std::make_unique<BlindPolicy>(context);
            }}};
 }
 

@@ -10,16 +10,16 @@
 
 namespace coordreq {
 
-CheckedCell::CheckedCell(const CheckGround& ground)
-    : ground_(ground),
-      safe_(ground.claims->members("/safe")),
-      invariant_(ground.claims->members("/invariant")),
-      delay_(ground.claims->values("/delay")),
-      arrival_(ground.spec->ends_at_goal ? &ground.claims->values("/arrival") : nullptr),
-      posts_(*ground.posts),
-      allowed_(*ground.spec, *ground.grid, *ground.inputs, ground.claims->listed),
-      admitted_(static_cast<std::size_t>(ground.inputs->count())) {
-  if (ground.tubes != nullptr) tubes_.emplace(*ground.tubes);
+CheckedCell::CheckedCell(const CheckContext& context)
+    : context_(context),
+      safe_(context.claims->members("/safe")),
+      invariant_(context.claims->members("/invariant")),
+      delay_(context.claims->values("/delay")),
+      arrival_(context.spec->ends_at_goal ? &context.claims->values("/arrival") : nullptr),
+      posts_(*context.posts),
+      allowed_(*context.spec, *context.grid, *context.inputs, context.claims->listed),
+      admitted_(static_cast<std::size_t>(context.inputs->count())) {
+  if (context.tubes != nullptr) tubes_.emplace(*context.tubes);
 }
 
 void CheckedCell::go_to(std::int64_t cell) {
@@ -36,7 +36,7 @@ void CheckedCell::go_to(std::int64_t cell) {
 /// Finds C(x) by the delays of the first partition, which are negative exactly outside K: so their minima are
 /// at hand for the check of delays.
 void CheckedCell::find_admitted() {
-  const bool given = ground_.spec->controller.synthesis == Synthesis::given;
+  const bool given = context_.spec->controller.synthesis == Synthesis::given;
   all_stay_ = true;
   for (std::size_t u = 0; u < admitted_.size(); ++u) {
     const auto input = static_cast<std::int64_t>(u);
@@ -48,7 +48,7 @@ void CheckedCell::find_admitted() {
 }
 
 std::string CheckedCell::place() const {
-  return place_of(*ground_.grid, cell_);
+  return place_of(*context_.grid, cell_);
 }
 
 void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "answers/checking/allowed_pairs.hpp"
-#include "answers/checking/check_ground.hpp"
+#include "answers/checking/check_context.hpp"
 #include "answers/checking/tally.hpp"
 #include "base/requires.hpp"
 
@@ -16,8 +16,8 @@ namespace coordreq {
 /// joint input at a time. A pair whose tube is not safe has no post. One object a thread.
 class CheckedCell {
  public:
-  /// @pre unchecked: `ground` outlives this object.
-  explicit CheckedCell(const CheckGround& ground);
+  /// @pre unchecked: `context` outlives this object.
+  explicit CheckedCell(const CheckContext& context);
 
   void go_to(std::int64_t cell);
 
@@ -69,7 +69,7 @@ class CheckedCell {
  private:
   void find_admitted();
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const std::vector<std::uint8_t>& safe_;
   const std::vector<std::uint8_t>& invariant_;
   const std::vector<std::int32_t>& delay_;    ///< of the first partition

@@ -12,19 +12,19 @@ constexpr std::int32_t kOutside = -1;
 
 }  // namespace
 
-ClaimedProgress::ClaimedProgress(const CheckGround& ground)
-    : ground_(ground), arrival_(ground.claims->values("/arrival")) {
+ClaimedProgress::ClaimedProgress(const CheckContext& context)
+    : context_(context), arrival_(context.claims->values("/arrival")) {
   for (const std::int32_t steps : arrival_) nearness_.push_back(steps < 0 ? kOutside : kForever - steps);
 }
 
 bool ClaimedProgress::leaves_through_safe_side(const CheckedCell& cell, std::int64_t u) const {
-  for (std::size_t i = 0; i < ground_.grid->size(); ++i) {
-    const GridDimension& dimension = (*ground_.grid)[i];
+  for (std::size_t i = 0; i < context_.grid->size(); ++i) {
+    const GridDimension& dimension = (*context_.grid)[i];
     if (dimension.below != Outside::safe && dimension.above != Outside::safe) continue;
-    const PostTable& table = *ground_.posts->tables[i];
+    const PostTable& table = *context_.posts->tables[i];
     const std::size_t entry =
-        table.entry_of(*ground_.grid, cell.number()) +
-        static_cast<std::size_t>(ground_.posts->input_part[i][static_cast<std::size_t>(u)]);
+        table.entry_of(*context_.grid, cell.number()) +
+        static_cast<std::size_t>(context_.posts->input_part[i][static_cast<std::size_t>(u)]);
     const IndexRange raw = table.entries[entry];
     if (dimension.below == Outside::safe && raw.first < 0) return true;
     if (dimension.above == Outside::safe && raw.last >= dimension.count) return true;
@@ -40,7 +40,7 @@ std::int32_t ClaimedProgress::worst(CheckedCell& cell, std::int64_t u) const {
 
 std::vector<std::uint8_t> ClaimedProgress::of(CheckedCell& cell) const {
   std::vector<std::uint8_t> result = cell.admitted();
-  if (ground_.spec->controller.synthesis == Synthesis::given) return result;
+  if (context_.spec->controller.synthesis == Synthesis::given) return result;
   for (std::size_t u = 0; u < result.size(); ++u) {
     if (result[u] != 0) result[u] = comes_nearer(cell, static_cast<std::int64_t>(u)) ? 1 : 0;
   }

@@ -10,8 +10,8 @@ namespace coordreq {
 /// The progress controller P by its definition, from the arrivals that a file claims.
 class ClaimedProgress {
  public:
-  /// @pre unchecked: the spec has a goal; `ground` outlives this object
-  explicit ClaimedProgress(const CheckGround& ground);
+  /// @pre unchecked: the spec has a goal; `context` outlives this object
+  explicit ClaimedProgress(const CheckContext& context);
 
   /// -2 outside S, -1 in S but not in K, kForever where the goal cannot be forced.
   [[nodiscard]] std::int32_t arrival(std::size_t cell) const { return arrival_[cell]; }
@@ -32,7 +32,7 @@ class ClaimedProgress {
  private:
   [[nodiscard]] bool leaves_through_safe_side(const CheckedCell& cell, std::int64_t u) const;
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const std::vector<std::int32_t>& arrival_;
   std::vector<std::int32_t> nearness_;  ///< [cell] kForever less arrival; negative outside K
 };

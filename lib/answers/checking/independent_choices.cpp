@@ -4,10 +4,10 @@
 
 namespace coordreq {
 
-IndependentChoices::IndependentChoices(const CheckGround& ground,
+IndependentChoices::IndependentChoices(const CheckContext& context,
                                        const std::vector<std::vector<std::int32_t>>& partition) {
   for (const auto& agents : partition)
-    classes_.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+    classes_.emplace_back(class_of(*context.spec, *context.inputs, agents)).tabulate();
 }
 
 std::vector<std::int64_t> IndependentChoices::of(const std::vector<std::uint8_t>& joint) const {

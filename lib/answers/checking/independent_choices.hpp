@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/checking/check_ground.hpp"
+#include "answers/checking/check_context.hpp"
 #include "model/input_class.hpp"
 
 namespace coordreq {
@@ -12,7 +12,7 @@ namespace coordreq {
 class IndependentChoices {
  public:
   /// @param partition its classes, by agents
-  IndependentChoices(const CheckGround& ground, const std::vector<std::vector<std::int32_t>>& partition);
+  IndependentChoices(const CheckContext& context, const std::vector<std::vector<std::int32_t>>& partition);
 
   /// The joint inputs in which the action of each class occurs in some joint input of `joint`, [joint input]
   /// 0 or 1.

@@ -8,18 +8,18 @@
 
 namespace coordreq {
 
-RuledChoices::RuledChoices(const CheckGround& ground, const std::vector<std::optional<Program>>& conditions,
+RuledChoices::RuledChoices(const CheckContext& context, const std::vector<std::optional<Program>>& conditions,
                            const std::string& key, const std::vector<std::vector<std::int32_t>>& partition)
-    : joint_inputs_(ground.inputs->count()) {
+    : joint_inputs_(context.inputs->count()) {
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     if (!conditions[i]) continue;
-    rules_.emplace_back(*ground.spec, *conditions[i], *ground.grid, *ground.inputs, "the condition",
-                        member_pointer("/silence/" + key, ground.spec->agents[i].name));
+    rules_.emplace_back(*context.spec, *conditions[i], *context.grid, *context.inputs, "the condition",
+                        member_pointer("/silence/" + key, context.spec->agents[i].name));
   }
   for (const std::vector<std::int32_t>& agents : partition) {
     const bool asks =
         std::ranges::any_of(agents, [&](std::int32_t i) { return !conditions[at(i)].has_value(); });
-    if (asks) asking_.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+    if (asks) asking_.emplace_back(class_of(*context.spec, *context.inputs, agents)).tabulate();
   }
 }
 

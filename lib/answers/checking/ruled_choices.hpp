@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "answers/checking/allowed_pairs.hpp"
-#include "answers/checking/check_ground.hpp"
+#include "answers/checking/check_context.hpp"
 #include "model/input_class.hpp"
 
 namespace coordreq {
@@ -18,7 +18,7 @@ class RuledChoices {
  public:
   /// @param conditions [agent] @param key of `silence` under which the conditions stand @param partition its
   ///   classes, by agents
-  RuledChoices(const CheckGround& ground, const std::vector<std::optional<Program>>& conditions,
+  RuledChoices(const CheckContext& context, const std::vector<std::optional<Program>>& conditions,
                const std::string& key, const std::vector<std::vector<std::int32_t>>& partition);
 
   /// The joint inputs that all rules permit, and in which the action of each class with an agent without a

@@ -14,7 +14,7 @@ namespace coordreq {
 namespace {
 
 void find_coalition_map(Answers& answers, const StageWork& work) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   std::vector<const DelayLayers*> layers;
   for (const DelayLayers& own : answers.get<PartitionLayers>().partitions) layers.push_back(&own);
   answers.add(find_coalitions(spec.coordination, spec.agents.size(), answers.get<Invariance>().invariant,
@@ -53,7 +53,7 @@ std::vector<Stage> coalition_stages(const ProblemSpec& spec) {
 
 void summarise_coalition(const Answers& answers, Json& summary, Json& /*work*/) {
   const auto* const map = answers.find<CoalitionMap>();
-  summary["coalition"] = map == nullptr ? Json() : coalition_json(*map, answers.ground.spec);
+  summary["coalition"] = map == nullptr ? Json() : coalition_json(*map, answers.context.spec);
 }
 
 void tell_coalition(const ProblemSpec& spec, const FieldSource& source, Json& info) {

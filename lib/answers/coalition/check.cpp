@@ -81,16 +81,16 @@ Candidate candidate_of(const PartitionSpec& partition, std::size_t agents,
 
 class CoalitionCheck : public AnswerCheck {
  public:
-  explicit CoalitionCheck(const CheckGround& ground)
+  explicit CoalitionCheck(const CheckContext& context)
       : AnswerCheck(CheckSection::costs),
-        grid_(*ground.grid),
-        safe_(ground.claims->members("/safe")),
-        invariant_(ground.claims->members("/invariant")),
-        delay_(ground.claims->at("/delay").values),
-        choice_(ground.claims->at("/coalition")),
+        grid_(*context.grid),
+        safe_(context.claims->members("/safe")),
+        invariant_(context.claims->members("/invariant")),
+        delay_(context.claims->at("/delay").values),
+        choice_(context.claims->at("/coalition")),
         chosen_(choice_.values.front()),
-        horizon_(*ground.spec->coordination.horizon) {
-    const ProblemSpec& spec = *ground.spec;
+        horizon_(*context.spec->coordination.horizon) {
+    const ProblemSpec& spec = *context.spec;
     for (const PartitionSpec& partition : spec.coordination.partitions)
       candidates_.push_back(candidate_of(partition, spec.agents.size(), spec.coordination.link_cost));
     rank();
@@ -98,7 +98,7 @@ class CoalitionCheck : public AnswerCheck {
       for (std::int32_t b = a + 1; at(b) < spec.agents.size(); ++b)
         pair_names_.push_back(class_name(spec.agents, {a, b}));
     }
-    if (!pair_names_.empty()) critical_ = &ground.claims->at("/critical_pair");
+    if (!pair_names_.empty()) critical_ = &context.claims->at("/critical_pair");
   }
 
   void check_all(ThreadTeam& team) override {
@@ -233,9 +233,9 @@ class CoalitionCheck : public AnswerCheck {
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_coalition(const CheckGround& ground) {
-  if (!ground.spec->coordination.horizon) return nullptr;
-  return std::make_unique<CoalitionCheck>(ground);
+std::unique_ptr<AnswerCheck> check_coalition(const CheckContext& context) {
+  if (!context.spec->coordination.horizon) return nullptr;
+  return std::make_unique<CoalitionCheck>(context);
 }
 
 }  // namespace coordreq

@@ -11,6 +11,6 @@ namespace coordreq {
 /// algorithm), then by their largest class and name, and each pair of agents is looked for in all partitions
 /// of least cost. Also checks the sizes in the file.
 /// @returns null: the spec has no horizon
-[[nodiscard]] std::unique_ptr<AnswerCheck> check_coalition(const CheckGround& ground);
+[[nodiscard]] std::unique_ptr<AnswerCheck> check_coalition(const CheckContext& context);
 
 }  // namespace coordreq

@@ -30,12 +30,12 @@ FillArray fill_coalition(const CoalitionMap& map, const Answers& answers) {
       [&map, &answers, code_of = codes<Integer>(map)](std::uint64_t begin, std::uint64_t count, void* out) {
         auto* const values = static_cast<Integer*>(out);
         map.chosen.visit([&]<class Level>(const LevelRows<Level>& levels) {
-          convert_stretch(levels, *answers.ground.order, begin, count, values, [&](Level level) {
+          convert_stretch(levels, *answers.context.order, begin, count, values, [&](Level level) {
             return level == LevelRows<Level>::kTop ? static_cast<Integer>(kNoPartitionSuffices)
                                                    : code_of[static_cast<std::size_t>(level)];
           });
         });
-        mark_unsafe(answers.get<Invariance>().collision_time, *answers.ground.order, begin, count, values);
+        mark_unsafe(answers.get<Invariance>().collision_time, *answers.context.order, begin, count, values);
       };
 }
 
@@ -122,7 +122,7 @@ void fill_coalition_fields(const Answers& answers, ThreadTeam& /*team*/, FieldVa
                                        .attributes = {{"cells", std::move(cells)}}};
   if (map->pairs.empty()) return;
   values.entries[paths::kCriticalPair] = {
-      .array = sets_array(map->critical, *answers.ground.order),
+      .array = sets_array(map->critical, *answers.context.order),
       .attributes = {
           {"cells", std::vector<std::uint64_t>(map->critical_cells.begin(), map->critical_cells.end())}}};
 }

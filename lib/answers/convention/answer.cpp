@@ -53,8 +53,9 @@ void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_
   }
 }
 
-ConventionFreedom find_parts(const Ground& ground, const ConventionAnswer& convention, ThreadTeam& team) {
-  const RowEngine& engine = *ground.engine;
+ConventionFreedom find_parts(const AnalysisContext& context, const ConventionAnswer& convention,
+                             ThreadTeam& team) {
+  const RowEngine& engine = *context.engine;
   ConventionFreedom result;
   std::int64_t cells = 0;
   for (std::size_t k = 0; k < convention.agents.size(); ++k) {
@@ -65,7 +66,7 @@ ConventionFreedom find_parts(const Ground& ground, const ConventionAnswer& conve
     if (convention.agents.size() == 1) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
     ConventionFreedom own =
         find_convention(part.controller, *part.hull, convention.agents[k], team, tiles ? &*tiles : nullptr);
-    const std::int64_t count = ground.count(invariant);
+    const std::int64_t count = context.count(invariant);
     if (k == 0) {
       result = std::move(own);
     } else {
@@ -77,20 +78,20 @@ ConventionFreedom find_parts(const Ground& ground, const ConventionAnswer& conve
 }
 
 void find_a_convention(Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   ConventionAnswer& result = answers.add(ConventionAnswer{controller_parts(answers, false), {}, {}});
-  const std::vector<InputClass> agents = agent_classes(ground.spec, ground.abstraction->inputs);
+  const std::vector<InputClass> agents = agent_classes(context.spec, context.abstraction->inputs);
   for (const PartialController& part : result.controller->parts)
     result.agents.emplace_back(*part.controller.engine, agents, work.team);
   const auto exchange = [&answers](Archive& archive) {
-    serialise(archive, *answers.ground.engine, answers.get<ConventionAnswer>().freedom);
+    serialise(archive, *answers.context.engine, answers.get<ConventionAnswer>().freedom);
   };
   const auto load = [&](Archive& archive) {
-    result.freedom.agents.resize(ground.spec.agents.size());
+    result.freedom.agents.resize(context.spec.agents.size());
     exchange(archive);
   };
   const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
-  if (!is_kept) result.freedom = find_parts(ground, result, work.team);
+  if (!is_kept) result.freedom = find_parts(context, result, work.team);
   if (work.store != nullptr) work.store->finish(exchange);
 }
 
@@ -104,7 +105,7 @@ std::vector<Stage> convention_stages(const ProblemSpec& spec) {
 void summarise_convention(const Answers& answers, Json& summary, Json& /*work*/) {
   const auto* const convention = answers.find<ConventionAnswer>();
   if (convention == nullptr) return;
-  const std::vector<AgentSpec>& agents = answers.ground.spec.agents;
+  const std::vector<AgentSpec>& agents = answers.context.spec.agents;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const ConventionFreedom::Agent& own = convention->freedom.agents[i];
     summary["convention"].push_back(Json{

@@ -21,7 +21,7 @@ struct ConventionTallies {
 
 class ConventionChecker : public CellChecker {
  public:
-  ConventionChecker(const CheckGround& ground, ConventionTallies& tallies);
+  ConventionChecker(const CheckContext& context, ConventionTallies& tallies);
 
   void check(CheckedCell& cell) override {
     const bool is_on_the_way = progress_ && progress_->is_on_the_way(cell.at());
@@ -43,7 +43,7 @@ class ConventionChecker : public CellChecker {
   void check_actions(const CheckedCell& cell);
   void check_freedom(const CheckedCell& cell);
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const std::vector<std::vector<float>>& freedom_;         ///< [agent][cell]
   std::vector<const std::vector<std::uint8_t>*> actions_;  ///< [agent]; null: not stored
   ConventionTallies& tallies_;
@@ -55,16 +55,16 @@ class ConventionChecker : public CellChecker {
   Sets sets_;                           ///< of the cell at work
 };
 
-ConventionChecker::ConventionChecker(const CheckGround& ground, ConventionTallies& tallies)
-    : ground_(ground), freedom_(ground.claims->at("/convention_freedom").reals), tallies_(tallies) {
-  if (ground.spec->goal) progress_.emplace(ground);
-  for (std::size_t a = 0; a < ground.spec->agents.size(); ++a) {
-    actions_.push_back(ground.claims->bits("/actions:convention/" + ground.spec->agents[a].name));
+ConventionChecker::ConventionChecker(const CheckContext& context, ConventionTallies& tallies)
+    : context_(context), freedom_(context.claims->at("/convention_freedom").reals), tallies_(tallies) {
+  if (context.spec->goal) progress_.emplace(context);
+  for (std::size_t a = 0; a < context.spec->agents.size(); ++a) {
+    actions_.push_back(context.claims->bits("/actions:convention/" + context.spec->agents[a].name));
     InputClass& own =
-        agents_.emplace_back(class_of(*ground.spec, *ground.inputs, {static_cast<std::int32_t>(a)}));
+        agents_.emplace_back(class_of(*context.spec, *context.inputs, {static_cast<std::int32_t>(a)}));
     own.tabulate();
     auto& joint = joint_.emplace_back(static_cast<std::size_t>(own.actions()));
-    for (std::int64_t u = 0; u < ground.inputs->count(); ++u)
+    for (std::int64_t u = 0; u < context.inputs->count(); ++u)
       joint[static_cast<std::size_t>(own.action(u))].push_back(static_cast<std::int32_t>(u));
   }
 }
@@ -130,7 +130,7 @@ void ConventionChecker::check_actions(const CheckedCell& cell) {
   tallies_.actions.add_checked(1);
   const Sets claimed = claimed_sets(cell.at());
   if (claimed == sets_) return;
-  if (ground_.sound_only() && is_product_in(claimed, admitted_)) {
+  if (context_.sound_only() && is_product_in(claimed, admitted_)) {
     tallies_.actions.add_unproven();
     return;
   }
@@ -153,12 +153,12 @@ void ConventionChecker::check_freedom(const CheckedCell& cell) {
     if (all == 0 && std::isnan(claimed)) continue;
     const auto expected = static_cast<float>(static_cast<double>(kept) / static_cast<double>(all));
     if (all > 0 && claimed == expected) continue;
-    if (ground_.sound_only() && all > 0 && claimed > 0 && claimed <= 1) {
+    if (context_.sound_only() && all > 0 && claimed > 0 && claimed <= 1) {
       tallies_.freedom.add_unproven();
     } else {
       tallies_.freedom.add_wrong(cell.number(), [&] {
         return fmt::format("{}: {} keeps {}, expected {} of {} actions", cell.place(),
-                           ground_.spec->agents[i].name, claimed, kept, all);
+                           context_.spec->agents[i].name, claimed, kept, all);
       });
     }
     return;
@@ -167,27 +167,28 @@ void ConventionChecker::check_freedom(const CheckedCell& cell) {
 
 class ConventionCheck : public AnswerCheck {
  public:
-  explicit ConventionCheck(const CheckGround& ground) : AnswerCheck(CheckSection::choices), ground_(ground) {}
+  explicit ConventionCheck(const CheckContext& context)
+      : AnswerCheck(CheckSection::choices), context_(context) {}
 
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<ConventionChecker>(ground_, tallies_);
+    return std::make_unique<ConventionChecker>(context_, tallies_);
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.freedom.finding()};
-    if (ground_.spec->output.actions) result.push_back(tallies_.actions.finding());
+    if (context_.spec->output.actions) result.push_back(tallies_.actions.finding());
     return result;
   }
 
  private:
-  const CheckGround& ground_;
+  const CheckContext& context_;
   ConventionTallies tallies_;
 };
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_convention(const CheckGround& ground) {
-  if (!ground.spec->coordination.convention) return nullptr;
-  return std::make_unique<ConventionCheck>(ground);
+std::unique_ptr<AnswerCheck> check_convention(const CheckContext& context) {
+  if (!context.spec->coordination.convention) return nullptr;
+  return std::make_unique<ConventionCheck>(context);
 }
 
 }  // namespace coordreq

@@ -10,6 +10,6 @@ namespace coordreq {
 /// joint input on, agents in order add their actions, ascending, as long as the product stays in C(x). Where
 /// C(x) is perhaps larger than that of the analysis, another convention is wrong only where it leaves C(x).
 /// @returns null: the spec asks for none
-[[nodiscard]] std::unique_ptr<AnswerCheck> check_convention(const CheckGround& ground);
+[[nodiscard]] std::unique_ptr<AnswerCheck> check_convention(const CheckContext& context);
 
 }  // namespace coordreq

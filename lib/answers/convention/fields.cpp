@@ -52,8 +52,9 @@ Fields convention_fields(const ProblemSpec& spec) {
 void fill_convention_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const convention = answers.find<ConventionAnswer>();
   if (convention == nullptr) return;
-  const ProblemSpec& spec = answers.ground.spec;
-  values.entries[paths::kConventionFreedom].array = freedom_array(convention->freedom, *answers.ground.order);
+  const ProblemSpec& spec = answers.context.spec;
+  values.entries[paths::kConventionFreedom].array =
+      freedom_array(convention->freedom, *answers.context.order);
   for (std::size_t i = 0; spec.output.actions && i < spec.agents.size(); ++i) {
     values.entries[paths::convention(spec.agents[i])].array = {
         ElementType::uint8, [convention, i](std::uint64_t begin, std::uint64_t count, void* out) {

@@ -17,9 +17,9 @@ namespace {
 
 class ConventionPolicy : public CellPolicy {
  public:
-  explicit ConventionPolicy(const PolicyGround& ground)
-      : joint_inputs_(ground.posts->inputs().count()),
-        way_(ground.spec->goal ? make_goal_policy(ground) : nullptr) {}
+  explicit ConventionPolicy(const PolicyContext& context)
+      : joint_inputs_(context.posts->inputs().count()),
+        way_(context.spec->goal ? make_goal_policy(context) : nullptr) {}
 
   bool holds(std::int64_t /*cell*/) override { return true; }
 
@@ -52,26 +52,26 @@ AnswerPolicy convention_policy() {
   return {.name = "convention",
           .words = "actions",
           .is_by_agent = true,
-          .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
-            return std::make_unique<ConventionPolicy>(ground);
+          .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
+            return std::make_unique<ConventionPolicy>(context);
           },
           .stored = [](const ProblemSpec& spec, const PartitionSpec& /*partition*/,
                        std::size_t agent) { return paths::convention(spec.agents[agent]); }};
 }
 
-Explained explain_convention(const ExplainGround& ground) {
+Explained explain_convention(const ExplainContext& context) {
   Explained result{.key = "convention", .found = std::make_shared<Json>(Json::array())};
-  if (ground.delay < 0) return result;
-  const std::vector<std::vector<bool>> actions = ground.actions(convention_policy());
+  if (context.delay < 0) return result;
+  const std::vector<std::vector<bool>> actions = context.actions(convention_policy());
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    const std::string& agent = ground.spec->agents[i].name;
+    const std::string& agent = context.spec->agents[i].name;
     const auto kept = std::count(actions[i].begin(), actions[i].end(), true);
     result.found->push_back({{"agent", agent}, {"kept", kept}, {"total", actions[i].size()}});
     parts.push_back(fmt::format("{} {} of {}", agent, grouped(std::int64_t{kept}),
                                 grouped(std::uint64_t{actions[i].size()})));
   }
-  if (!ground.is_bounded) return result;
+  if (!context.is_bounded) return result;
   result.sentences = {
       fmt::format("With a convention (\"convention\": true) agents would keep {} actions here, "
                   "and agents that keep to it never need to coordinate.",

@@ -21,16 +21,16 @@ namespace coordreq {
 namespace {
 
 void find_arrival(Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   const auto& controller = answers.get<Controller>();
   Goal& goal = answers.add(Goal{});
-  goal.engine = std::make_unique<ProgressEngine>(ground);
-  const RowShare* const share = ground.shared_rows();
+  goal.engine = std::make_unique<ProgressEngine>(context);
+  const RowShare* const share = context.shared_rows();
   const CellSet safe =
-      ground.over ? *ground.over
-                  : part_of(cells_that_satisfy(*ground.spec.goal, ground.spec, ground.abstraction->grid,
-                                               ground.abstraction->inputs, work.team, share),
-                            ground.safe, true, share);
+      context.over ? *context.over
+                   : part_of(cells_that_satisfy(*context.spec.goal, context.spec, context.abstraction->grid,
+                                                context.abstraction->inputs, work.team, share),
+                             context.safe, true, share);
   goal.cells = part_of(safe, *controller.invariant, true, share);
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
@@ -41,13 +41,13 @@ void find_arrival(Answers& answers, const StageWork& work) {
   goal.winning = winning_cells(goal.nearness, work.team);
   goal.longest = longest_arrival(goal.nearness, work.team);
   goal.away = part_of(goal.winning, goal.cells, false, share);
-  goal.sizes = {ground.count(goal.cells), ground.count(goal.winning), ground.count(safe)};
+  goal.sizes = {context.count(goal.cells), context.count(goal.winning), context.count(safe)};
   goal.progress = Controller{&engine, &goal.away, &goal.nearness, controller.synthesis, true};
-  goal.approach.resize(ground.spec.coordination.partitions.size());
+  goal.approach.resize(context.spec.coordination.partitions.size());
 }
 
 void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   Goal& goal = answers.get<Goal>();
   const RowEngine& engine = goal.engine->engine();
   const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
@@ -59,7 +59,7 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   find_or_take_levels(work, engine, bounds, own.layers_of, [&](const WaveWatch& watch) {
     work.enter_part("projections");
     const PartitionSpec& partition = spec.coordination.partitions[p];
-    const ActionGrouping grouping(engine, input_classes(spec, answers.ground.abstraction->inputs, partition),
+    const ActionGrouping grouping(engine, input_classes(spec, answers.context.abstraction->inputs, partition),
                                   work.team);
     const Projections projections(goal.progress, grouping, goal.engine->hull(), work.team);
     work.enter_part("");
@@ -87,11 +87,11 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   summary["goal"] = {{"cells", goal->sizes.cells},
                      {"winning", goal->sizes.winning},
                      {"longest_arrival", goal->longest ? Json(*goal->longest) : Json()}};
-  if (answers.ground.spec.ends_at_goal) summary["goal"]["then"] = "over";
+  if (answers.context.spec.ends_at_goal) summary["goal"]["then"] = "over";
   work["arrival"] = work_json(goal->counts);
   for (std::size_t p = 0; p < goal->approach.size(); ++p) {
     summary["partitions"][p]["approach"] = layers_json(goal->approach[p]);
-    work["approach " + answers.ground.spec.coordination.partitions[p].name] =
+    work["approach " + answers.context.spec.coordination.partitions[p].name] =
         work_json(goal->approach[p].counts);
   }
 }
@@ -101,16 +101,16 @@ std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, 
   Controller everywhere = answers.get<Controller>();
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr) {
-    result->parts.push_back({everywhere, &*answers.ground.hull});
+    result->parts.push_back({everywhere, &*answers.context.hull});
     return result;
   }
   // In cells where the task is over no convention is needed.
   const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
   result->rest =
-      is_in_goal_only ? goal->cells : part_of(going_on, goal->away, false, answers.ground.shared_rows());
+      is_in_goal_only ? goal->cells : part_of(going_on, goal->away, false, answers.context.shared_rows());
   everywhere.whole = everywhere.invariant;
   everywhere.invariant = &result->rest;
-  result->parts.push_back({everywhere, &*answers.ground.hull});
+  result->parts.push_back({everywhere, &*answers.context.hull});
   result->parts.push_back({goal->progress, &goal->engine->hull()});
   return result;
 }
@@ -126,7 +126,7 @@ void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
 
 Warnings advise_on_goal(const Answers& answers) {
   const Goal* const goal = answers.find<Goal>();
-  if (goal == nullptr || answers.ground.safe_cells == 0) return {};
+  if (goal == nullptr || answers.context.safe_cells == 0) return {};
   if (goal->sizes.winning == 0) {
     const std::string hint =
         goal->sizes.safe == 0
@@ -135,10 +135,10 @@ Warnings advise_on_goal(const Answers& answers) {
                           goal->sizes.safe == 1 ? "one is" : grouped(goal->sizes.safe) + " are");
     return {{"goal", "/goal",
              fmt::format("no cell of the {} set is in the goal on this grid: it cannot be forced{}",
-                         answers.ground.over ? "safe" : "invariance", hint)}};
+                         answers.context.over ? "safe" : "invariance", hint)}};
   }
   if (goal->sizes.winning > goal->sizes.cells) return {};
-  const bool is_closed = answers.ground.spec.abstraction.cells == Cells::closed;
+  const bool is_closed = answers.context.spec.abstraction.cells == Cells::closed;
   return {{"goal", "/goal",
            std::string("the goal can be forced from its own cells only") +
                (is_closed

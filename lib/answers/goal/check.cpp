@@ -64,21 +64,21 @@ struct GoalClass {
 
 class GoalChecker : public CellChecker {
  public:
-  GoalChecker(const CheckGround& ground, const GoalClaims& claims, GoalTallies& tallies, SafeMemory& memory)
-      : ground_(ground),
+  GoalChecker(const CheckContext& context, const GoalClaims& claims, GoalTallies& tallies, SafeMemory& memory)
+      : context_(context),
         claims_(claims),
         tallies_(tallies),
-        by_definition_(ground),
-        controller_(ground.claims->bits("/controller:goal")),
-        judge_(*ground.spec, *ground.spec->goal, *ground.grid, memory) {
-    const ProblemSpec& spec = *ground.spec;
+        by_definition_(context),
+        controller_(context.claims->bits("/controller:goal")),
+        judge_(*context.spec, *context.spec->goal, *context.grid, memory) {
+    const ProblemSpec& spec = *context.spec;
     for (const PartitionSpec& partition : spec.coordination.partitions) {
       std::vector<GoalClass>& all = classes_.emplace_back();
       for (const auto& agents : partition.classes) {
         const std::string name = class_name(spec.agents, agents);
-        GoalClass& one = all.emplace_back(GoalClass{class_of(spec, *ground.inputs, agents)});
+        GoalClass& one = all.emplace_back(GoalClass{class_of(spec, *context.inputs, agents)});
         one.own.tabulate();
-        one.actions = ground.claims->bits("/actions:goal/" + partition.name + "/" + name);
+        one.actions = context.claims->bits("/actions:goal/" + partition.name + "/" + name);
       }
     }
   }
@@ -86,7 +86,7 @@ class GoalChecker : public CellChecker {
   void check(CheckedCell& cell) override {
     const std::int32_t arrival = claims_.arrival[cell.at()];
     // All cells of a goal that ends the task are in K, so that all cells of S are checked.
-    if (ground_.spec->ends_at_goal ? cell.is_safe() : cell.is_invariant()) check_goal(cell, arrival == 0);
+    if (context_.spec->ends_at_goal ? cell.is_safe() : cell.is_invariant()) check_goal(cell, arrival == 0);
     check_arrival(cell, arrival);
     find_progress(cell, arrival);
     if (controller_ != nullptr)
@@ -138,7 +138,7 @@ class GoalChecker : public CellChecker {
     if (found.extra > 0) {
       tally.add_wrong(cell.number(),
                       [&] { return fmt::format("{}: {} too many", cell.place(), found.extra); });
-    } else if (found.fewer && ground_.sound_only()) {
+    } else if (found.fewer && context_.sound_only()) {
       tally.add_unproven();
     } else if (found.fewer) {
       wrong(tally, cell, "some are missing");
@@ -162,7 +162,7 @@ class GoalChecker : public CellChecker {
     std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
     if (cell.is_invariant()) expected = claimed == 0 ? 0 : arrival_by_definition(cell);
     if (claimed == expected) return;
-    if (ground_.sound_only() && expected >= 0 && claimed > expected) {
+    if (context_.sound_only() && expected >= 0 && claimed > expected) {
       tallies_.arrival.add_unproven();
     } else {
       add_wrong_steps(tallies_.arrival, cell, claimed, expected);
@@ -170,7 +170,7 @@ class GoalChecker : public CellChecker {
   }
 
   [[nodiscard]] std::int32_t arrival_by_definition(CheckedCell& cell) const {
-    const bool is_given = ground_.spec->controller.synthesis == Synthesis::given;
+    const bool is_given = context_.spec->controller.synthesis == Synthesis::given;
     std::int32_t best = is_given ? 0 : kForever;
     for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
       if (cell.admitted()[u] == 0) continue;
@@ -191,13 +191,13 @@ class GoalChecker : public CellChecker {
                  : cell.is_over()    ? kForever
                  : arrival == 0      ? claims_.safety[p][cell.at()]
                                      : approach_by_definition(cell, p);
-      const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
+      const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
       if (most && claims_.fixed_points[p] < 0)
         expected = std::min(expected, static_cast<std::int32_t>(*most));
     }
     if (claimed == expected) return;
     // The file does not have the choices of agents.
-    if (ground_.sound_only() && expected >= 0 && claimed >= 0) {
+    if (context_.sound_only() && expected >= 0 && claimed >= 0) {
       tally.add_unproven();
     } else {
       add_wrong_steps(tally, cell, claimed, expected);
@@ -206,7 +206,7 @@ class GoalChecker : public CellChecker {
 
   [[nodiscard]] std::int32_t approach_by_definition(CheckedCell& cell, std::size_t p) {
     std::vector<std::int64_t> choices;
-    for (std::int64_t u = 0; u < ground_.inputs->count(); ++u) {
+    for (std::int64_t u = 0; u < context_.inputs->count(); ++u) {
       bool is_choice = true;
       for (std::size_t c = 0; is_choice && c < projections_.size(); ++c)
         is_choice = projections_[c][static_cast<std::size_t>(classes_[p][c].own.action(u))] != 0;
@@ -223,7 +223,7 @@ class GoalChecker : public CellChecker {
     Tally& tally = tallies_.approach[p].trigger;
     tally.add_checked(1);
     const std::int32_t delay = claims_.delay[p][cell.at()];
-    const std::int64_t needed = ground_.spec->coordination.connection_delay;
+    const std::int64_t needed = context_.spec->coordination.connection_delay;
     const std::int32_t expected = delay < 0 || delay == kForever ? delay
                                   : delay < needed               ? kMustStand
                                                                  : static_cast<std::int32_t>(delay - needed);
@@ -235,7 +235,7 @@ class GoalChecker : public CellChecker {
     tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.place(), what); });
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const GoalClaims& claims_;
   GoalTallies& tallies_;
   ClaimedProgress by_definition_;
@@ -249,12 +249,12 @@ class GoalChecker : public CellChecker {
 
 class GoalCheck : public AnswerCheck {
  public:
-  explicit GoalCheck(const CheckGround& ground)
+  explicit GoalCheck(const CheckContext& context)
       : AnswerCheck(CheckSection::steps),
-        ground_(ground),
-        claims_(*ground.claims),
-        memory_(*ground.spec->goal, *ground.grid) {
-    for (const PartitionSpec& partition : ground.spec->coordination.partitions)
+        context_(context),
+        claims_(*context.claims),
+        memory_(*context.spec->goal, *context.grid) {
+    for (const PartitionSpec& partition : context.spec->coordination.partitions)
       tallies_.approach.emplace_back(partition.name);
   }
 
@@ -266,7 +266,7 @@ class GoalCheck : public AnswerCheck {
       ++winning;
       longest = std::max(longest, std::int64_t{arrival});
     }
-    const Claims& claims = *ground_.claims;
+    const Claims& claims = *context_.claims;
     sizes.expect("|G|", claims.attribute("/arrival", "goal_cells"), goal);
     sizes.expect("|W|", claims.attribute("/arrival", "winning_cells"), winning);
     sizes.expect("longest arrival", claims.attribute("/arrival", "longest_arrival"), longest);
@@ -277,15 +277,15 @@ class GoalCheck : public AnswerCheck {
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<GoalChecker>(ground_, claims_, tallies_, memory_);
+    return std::make_unique<GoalChecker>(context_, claims_, tallies_, memory_);
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.goal.finding(), tallies_.arrival.finding()};
-    if (ground_.spec->output.controller) result.push_back(tallies_.controller.finding());
+    if (context_.spec->output.controller) result.push_back(tallies_.controller.finding());
     for (const ApproachTallies& own : tallies_.approach) {
       result.push_back(own.delay.finding());
       result.push_back(own.trigger.finding());
-      if (ground_.spec->output.actions) result.push_back(own.actions.finding());
+      if (context_.spec->output.actions) result.push_back(own.actions.finding());
     }
     return result;
   }
@@ -294,7 +294,7 @@ class GoalCheck : public AnswerCheck {
   /// Compares |A_k| of one partition, and F, with the delays of its cells.
   /// @param layers the most layers of any partition so far
   [[nodiscard]] Finding compare_layers(std::size_t p, std::size_t& layers) const {
-    Comparison comparison("approach layers " + ground_.spec->coordination.partitions[p].name);
+    Comparison comparison("approach layers " + context_.spec->coordination.partitions[p].name);
     const std::size_t length = claims_.sizes.size() / claims_.delay.size();
     std::vector<std::int64_t> sizes(length, 0);
     std::int64_t last = -1;  // the greatest delay that is not unbounded
@@ -317,7 +317,7 @@ class GoalCheck : public AnswerCheck {
   /// Whether `max_delay` M stopped the iteration: unless A_M is empty, or A and Z stood still before.
   /// @param claimed whether the file says so; then cells of delay M are those of the last layer
   [[nodiscard]] bool is_stopped(std::size_t p, std::int64_t last, bool unbounded, bool claimed) const {
-    const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
+    const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
     if (!most) return false;
     if (claimed && (unbounded || last != *most)) return false;
     if (!claimed && !unbounded) return last >= *most;  // the layers were empty before
@@ -329,7 +329,7 @@ class GoalCheck : public AnswerCheck {
     return of_safety < 0 || std::max(fixed, of_safety) >= *most;
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   GoalClaims claims_;
   SafeMemory memory_;
   GoalTallies tallies_;
@@ -337,8 +337,8 @@ class GoalCheck : public AnswerCheck {
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_goal(const CheckGround& ground) {
-  return ground.spec->goal ? std::make_unique<GoalCheck>(ground) : nullptr;
+std::unique_ptr<AnswerCheck> check_goal(const CheckContext& context) {
+  return context.spec->goal ? std::make_unique<GoalCheck>(context) : nullptr;
 }
 
 }  // namespace coordreq

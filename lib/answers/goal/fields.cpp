@@ -111,9 +111,9 @@ ResultArray with_losing_cells(ResultArray array, const Goal& goal, const CellOrd
 }
 
 void fill_approach(const Answers& answers, const Goal& goal, FieldValues& values) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.ground.order;
+  const CellOrder& order = *answers.context.order;
   const ElementType type = delay_type(goal.approach);
   const std::int64_t connection_delay = spec.coordination.connection_delay;
   std::vector<ResultArray> delays, triggers;
@@ -170,9 +170,9 @@ Fields goal_fields(const ProblemSpec& spec) {
 void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr) return;
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.ground.order;
+  const CellOrder& order = *answers.context.order;
   const ElementType type = level_type(goal->longest.value_or(0));
   values.entries[paths::kArrival] = {
       .array = {type, type == ElementType::int16 ? fill_arrival<std::int16_t>(*goal, times, order)
@@ -183,7 +183,7 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
   fill_approach(answers, *goal, values);
   if (!spec.output.controller && !spec.output.actions) return;
   const std::shared_ptr<const ControllerParts> parts = controller_parts(answers, true);
-  const InputSpace& inputs = answers.ground.abstraction->inputs;
+  const InputSpace& inputs = answers.context.abstraction->inputs;
   if (spec.output.controller)
     values.entries[paths::kProgress].array = progress_bits(parts, {whole_class(inputs)}, 0, team);
   for (const PartitionSpec& partition : spec.coordination.partitions) {

@@ -10,8 +10,8 @@ namespace {
 
 class GoalPolicy : public CellPolicy {
  public:
-  explicit GoalPolicy(const PolicyGround& ground)
-      : arrival_(ground.values(paths::kArrival)), progress_(*ground.spec, *ground.posts, arrival_) {}
+  explicit GoalPolicy(const PolicyContext& context)
+      : arrival_(context.values(paths::kArrival)), progress_(*context.spec, *context.posts, arrival_) {}
 
   bool holds(std::int64_t cell) override {
     const std::int32_t arrival = arrival_(cell);
@@ -51,8 +51,8 @@ std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
                                  "whether the action is allowed."}}};
 }
 
-std::unique_ptr<CellPolicy> make_goal_policy(const PolicyGround& ground) {
-  return std::make_unique<GoalPolicy>(ground);
+std::unique_ptr<CellPolicy> make_goal_policy(const PolicyContext& context) {
+  return std::make_unique<GoalPolicy>(context);
 }
 
 }  // namespace coordreq

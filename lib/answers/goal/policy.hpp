@@ -11,6 +11,6 @@ namespace coordreq {
 /// agents from IND_P(x), for as many steps as the approach delay. None without a goal.
 [[nodiscard]] std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec);
 /// @pre unchecked: there is a goal
-[[nodiscard]] std::unique_ptr<CellPolicy> make_goal_policy(const PolicyGround& ground);
+[[nodiscard]] std::unique_ptr<CellPolicy> make_goal_policy(const PolicyContext& context);
 
 }  // namespace coordreq

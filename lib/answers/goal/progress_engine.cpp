@@ -21,14 +21,14 @@ UniformGrid without_safe_sides(const UniformGrid& grid) {
 
 }  // namespace
 
-ProgressEngine::ProgressEngine(const Ground& ground) : ground_(&ground) {
-  REQUIRES(ground.engine && ground.hull);
-  if (!has_safe_side(ground.spec)) return;
-  abstraction_ = *ground.abstraction;
+ProgressEngine::ProgressEngine(const AnalysisContext& context) : context_(&context) {
+  REQUIRES(context.engine && context.hull);
+  if (!has_safe_side(context.spec)) return;
+  abstraction_ = *context.abstraction;
   abstraction_->grid = without_safe_sides(abstraction_->grid);
-  TubeSets tubes = ground.tubes();
-  tubes.grid = &ground.abstraction->grid;
-  engine_.emplace(*abstraction_, &ground.pairs, tubes, ground.shared_rows());
+  TubeSets tubes = context.tubes();
+  tubes.grid = &context.abstraction->grid;
+  engine_.emplace(*abstraction_, &context.pairs, tubes, context.shared_rows());
   hull_.emplace(*engine_);
 }
 

@@ -1,28 +1,28 @@
 #pragma once
 
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 
 namespace coordreq {
 
 /// The engine that reads nearness to a goal: a post that leaves through a `safe` side does not come nearer to
 /// the goal, and is read as blocked. (Contract, section 5: T has an infinite arrival there, and a pair that
 /// may leave through a `goal` side too makes no progress.) Where no side is `safe` it is the engine of the
-/// ground. Else tables are held a second time, as their rows are cut differently.
+/// context. Else tables are held a second time, as their rows are cut differently.
 class ProgressEngine {
  public:
-  /// @pre `ground` is laid. @pre unchecked: `ground` outlives this object
-  explicit ProgressEngine(const Ground& ground);
+  /// @pre `context` is set up. @pre unchecked: `context` outlives this object
+  explicit ProgressEngine(const AnalysisContext& context);
   ProgressEngine(const ProgressEngine&) = delete;
   ProgressEngine& operator=(const ProgressEngine&) = delete;
   ~ProgressEngine() = default;
 
-  [[nodiscard]] const RowEngine& engine() const { return engine_ ? *engine_ : *ground_->engine; }
-  [[nodiscard]] const RowHull& hull() const { return hull_ ? *hull_ : *ground_->hull; }
-  /// The tiles of the ground if this is its engine, else null.
-  [[nodiscard]] const Tiles* equal_work() const { return engine_ ? nullptr : ground_->equal_work(); }
+  [[nodiscard]] const RowEngine& engine() const { return engine_ ? *engine_ : *context_->engine; }
+  [[nodiscard]] const RowHull& hull() const { return hull_ ? *hull_ : *context_->hull; }
+  /// The tiles of the context if this is its engine, else null.
+  [[nodiscard]] const Tiles* equal_work() const { return engine_ ? nullptr : context_->equal_work(); }
 
  private:
-  const Ground* ground_;
+  const AnalysisContext* context_;
   std::optional<Abstraction> abstraction_;
   std::optional<RowEngine> engine_;
   std::optional<RowHull> hull_;

@@ -12,24 +12,25 @@ namespace coordreq {
 namespace {
 
 void find_invariance_set(Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
-  const Synthesis synthesis = ground.spec.controller.synthesis;
+  const AnalysisContext& context = answers.context;
+  const Synthesis synthesis = context.spec.controller.synthesis;
   Invariance& result = answers.add(Invariance{});
   // No level is greater than if cells were lost one by one.
-  const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
-  const std::optional<RowSymmetry> symmetry = ground.symmetry(single_classes(ground.abstraction->inputs));
-  find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
-    Invariance found = find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team,
-                                       ground.equal(symmetry ? &*symmetry : nullptr), ground.over_or_null());
+  const LevelBounds bounds{&context.safe, context.engine->grid().points() + 1};
+  const std::optional<RowSymmetry> symmetry = context.symmetry(single_classes(context.abstraction->inputs));
+  find_or_take_levels(work, *context.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
+    Invariance found =
+        find_invariance(*context.engine, *context.hull, context.safe, synthesis, watch, work.team,
+                        context.equal(symmetry ? &*symmetry : nullptr), context.over_or_null());
     result.counts = found.counts;
     return std::move(found.collision_time);
   });
   follow_from_collision_times(result, work.team);
   const Controller& controller =
-      answers.add(Controller{&*ground.engine, &result.invariant, &result.collision_time, synthesis});
+      answers.add(Controller{&*context.engine, &result.invariant, &result.collision_time, synthesis});
   GoingOn& going_on = answers.add(GoingOn{{}, controller});
-  if (!ground.over) return;
-  going_on.cells = part_of(result.invariant, *ground.over, false, ground.shared_rows());
+  if (!context.over) return;
+  going_on.cells = part_of(result.invariant, *context.over, false, context.shared_rows());
   going_on.controller.invariant = &going_on.cells;
   going_on.controller.whole = &result.invariant;
 }
@@ -49,7 +50,7 @@ void summarise_invariance(const Answers& answers, Json& summary, Json& work) {
   const auto& invariance = answers.get<Invariance>();
   summary["invariant"] = invariance.cells;
   summary["iterations"] = invariance.iterations;
-  summary["guarantee"] = guarantee_of(answers.ground.spec);
+  summary["guarantee"] = guarantee_of(answers.context.spec);
   work["invariance"] = work_json(invariance.counts);
 }
 

@@ -22,13 +22,13 @@ struct SetTallies {
 
 class SetChecker : public CellChecker {
  public:
-  SetChecker(const CheckGround& ground, SetTallies& tallies, SafeMemory& memory)
-      : ground_(ground),
-        invariant_(ground.claims->members("/invariant")),
-        collision_time_(ground.claims->values("/collision_time")),
-        controller_(ground.claims->bits("/controller")),
+  SetChecker(const CheckContext& context, SetTallies& tallies, SafeMemory& memory)
+      : context_(context),
+        invariant_(context.claims->members("/invariant")),
+        collision_time_(context.claims->values("/collision_time")),
+        controller_(context.claims->bits("/controller")),
         tallies_(tallies),
-        judge_(*ground.spec, ground.spec->safe, *ground.grid, memory) {}
+        judge_(*context.spec, context.spec->safe, *context.grid, memory) {}
 
   void check(CheckedCell& cell) override {
     check_safe(cell);
@@ -66,10 +66,10 @@ class SetChecker : public CellChecker {
 
   /// Checks a cell of S outside K: that no coordination keeps it safe.
   void check_escape(CheckedCell& cell) {
-    const bool maximal = ground_.spec->controller.synthesis == Synthesis::maximal;
+    const bool maximal = context_.spec->controller.synthesis == Synthesis::maximal;
     bool any = false;
     std::int32_t best = maximal ? 0 : kForever;
-    for (std::int64_t u = 0; u < ground_.inputs->count(); ++u) {
+    for (std::int64_t u = 0; u < context_.inputs->count(); ++u) {
       if (!cell.is_allowed(u)) continue;
       any = true;
       const std::int32_t time = cell.least(u, collision_time_, 0);
@@ -77,7 +77,7 @@ class SetChecker : public CellChecker {
     }
     tallies_.invariant.add_checked(1);
     if (any && best == kForever) {
-      if (ground_.sound_only()) {
+      if (context_.sound_only()) {
         tallies_.invariant.add_unproven();
       } else {
         wrong(tallies_.invariant, cell, "not in K, but agents that coordinate stay in K for ever");
@@ -90,7 +90,7 @@ class SetChecker : public CellChecker {
   void check_stay(const CheckedCell& cell) {
     check_collision_time(cell, kForever);
     tallies_.invariant.add_checked(1);
-    if (ground_.spec->controller.synthesis == Synthesis::given && !cell.all_stay())
+    if (context_.spec->controller.synthesis == Synthesis::given && !cell.all_stay())
       wrong(tallies_.invariant, cell, "in K, but an allowed input leads out of it");
     if (std::find(cell.admitted().begin(), cell.admitted().end(), 1) == cell.admitted().end())
       wrong(tallies_.invariant, cell, "in K, but no allowed input keeps it there");
@@ -100,7 +100,7 @@ class SetChecker : public CellChecker {
     tallies_.collision_time.add_checked(1);
     const std::int32_t claimed = collision_time_[cell.at()];
     if (claimed == expected) return;
-    if (ground_.sound_only() && claimed < expected && claimed > 0) {
+    if (context_.sound_only() && claimed < expected && claimed > 0) {
       tallies_.collision_time.add_unproven();
       return;
     }
@@ -116,7 +116,7 @@ class SetChecker : public CellChecker {
       tallies_.controller.add_wrong(cell.number(), [&] {
         return fmt::format("{}: {} joint inputs too many", cell.place(), found.extra);
       });
-    } else if (found.fewer && ground_.sound_only()) {
+    } else if (found.fewer && context_.sound_only()) {
       tallies_.controller.add_unproven();
     } else if (found.fewer) {
       wrong(tallies_.controller, cell, "joint inputs are missing");
@@ -127,7 +127,7 @@ class SetChecker : public CellChecker {
     tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.place(), what); });
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const std::vector<std::uint8_t>& invariant_;
   const std::vector<std::int32_t>& collision_time_;
   const std::vector<std::uint8_t>* controller_;  ///< null: not stored
@@ -137,11 +137,11 @@ class SetChecker : public CellChecker {
 
 class InvarianceCheck : public AnswerCheck {
  public:
-  explicit InvarianceCheck(const CheckGround& ground)
-      : AnswerCheck(CheckSection::sets), ground_(ground), memory_(ground.spec->safe, *ground.grid) {}
+  explicit InvarianceCheck(const CheckContext& context)
+      : AnswerCheck(CheckSection::sets), context_(context), memory_(context.spec->safe, *context.grid) {}
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
-    const Claims& claims = *ground_.claims;
+    const Claims& claims = *context_.claims;
     for (const auto& [words, path] : {std::pair("|S|", "/safe"), std::pair("|K|", "/invariant")})
       sizes.expect(words, claims.at(path).cells.front(), count_members(claims.members(path)));
     std::int64_t last = 0;
@@ -153,25 +153,25 @@ class InvarianceCheck : public AnswerCheck {
     return {};
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<SetChecker>(ground_, tallies_, memory_);
+    return std::make_unique<SetChecker>(context_, tallies_, memory_);
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.safe.finding(), tallies_.invariant.finding(),
                                    tallies_.collision_time.finding()};
-    if (ground_.claims->has("/controller")) result.push_back(tallies_.controller.finding());
+    if (context_.claims->has("/controller")) result.push_back(tallies_.controller.finding());
     return result;
   }
 
  private:
-  const CheckGround& ground_;
+  const CheckContext& context_;
   SafeMemory memory_;
   SetTallies tallies_;
 };
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_invariance(const CheckGround& ground) {
-  return std::make_unique<InvarianceCheck>(ground);
+std::unique_ptr<AnswerCheck> check_invariance(const CheckContext& context) {
+  return std::make_unique<InvarianceCheck>(context);
 }
 
 }  // namespace coordreq

@@ -17,6 +17,6 @@ namespace coordreq {
 ///   in a larger K;
 /// - a stored controller has the inputs of C(x);
 /// - |S|, |K| and the number of sweeps against the cells.
-[[nodiscard]] std::unique_ptr<AnswerCheck> check_invariance(const CheckGround& ground);
+[[nodiscard]] std::unique_ptr<AnswerCheck> check_invariance(const CheckContext& context);
 
 }  // namespace coordreq

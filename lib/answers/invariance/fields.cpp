@@ -53,36 +53,36 @@ Fields invariance_fields(const ProblemSpec& spec) {
 }
 
 void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   const auto& invariance = answers.get<Invariance>();
   const LevelMap& times = invariance.collision_time;
-  values.entries[paths::kSafe] = {.array = safe_array(times, *ground.order),
-                                  .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe_cells)}}};
+  values.entries[paths::kSafe] = {.array = safe_array(times, *context.order),
+                                  .attributes = {{"cells", static_cast<std::uint64_t>(context.safe_cells)}}};
   values.entries[paths::kInvariant] = {
-      .array = invariant_array(times, *ground.order),
+      .array = invariant_array(times, *context.order),
       .attributes = {{"cells", static_cast<std::uint64_t>(invariance.cells)}}};
   // K is in S.
-  if (invariance.cells == ground.safe_cells) values.entries[paths::kInvariant].equals = paths::kSafe;
+  if (invariance.cells == context.safe_cells) values.entries[paths::kInvariant].equals = paths::kSafe;
   values.entries[paths::kCollisionTime] = {
-      .array = collision_array(times, *ground.order, level_type(invariance.iterations - 1)),
+      .array = collision_array(times, *context.order, level_type(invariance.iterations - 1)),
       .attributes = {{"iterations", invariance.iterations}}};
-  if (ground.spec.output.controller) {
+  if (context.spec.output.controller) {
     const auto everything = std::make_shared<const ActionGrouping>(
-        *ground.engine, std::vector<InputClass>{whole_class(ground.abstraction->inputs)}, team);
+        *context.engine, std::vector<InputClass>{whole_class(context.abstraction->inputs)}, team);
     values.entries[paths::kController].array = {
         ElementType::uint8, [controller = answers.get<Controller>(), everything](
                                 std::uint64_t begin, std::uint64_t count, void* out) {
           fill_action_bits(controller, *everything, 0, begin, count, out);
         }};
   }
-  if (!ground.listed) return;
+  if (!context.listed) return;
   values.entries[paths::kListed] = {
       .array = {ElementType::uint8,
-                [&pairs = ground.listed->pairs](std::uint64_t begin, std::uint64_t count, void* out) {
+                [&pairs = context.listed->pairs](std::uint64_t begin, std::uint64_t count, void* out) {
                   std::copy_n(pairs.bytes.begin() + static_cast<std::ptrdiff_t>(begin), count,
                               static_cast<std::uint8_t*>(out));
                 }},
-      .attributes = {{"sha256", ground.listed->sha256}}};
+      .attributes = {{"sha256", context.listed->sha256}}};
 }
 
 }  // namespace coordreq

@@ -22,22 +22,22 @@ namespace {
 /// Whether unbounded cells whose runs leave through a `safe` side are counted. Not if all agents coordinate,
 /// who are never silent, nor with a controller file, since classes may take joint inputs that it does not
 /// list.
-bool counts_leaving(const Ground& ground, const DelayLayers& layers) {
-  return !layers.truncated && !ground.listed && has_safe_side(ground.spec);
+bool counts_leaving(const AnalysisContext& context, const DelayLayers& layers) {
+  return !layers.truncated && !context.listed && has_safe_side(context.spec);
 }
 
 /// @pre unchecked: the layers of all coarser partitions are known.
 void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
-  const CoordinationSpec& coordination = ground.spec.coordination;
+  const AnalysisContext& context = answers.context;
+  const CoordinationSpec& coordination = context.spec.coordination;
   std::vector<DelayLayers>& all = answers.get<PartitionLayers>().partitions;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   if (coordination.partitions[p].classes.size() == 1) {
-    all[p] = coordinated_layers(*ground.engine, invariant, coordination.max_delay, work.team,
-                                ground.tiles.has_value());
+    all[p] = coordinated_layers(*context.engine, invariant, coordination.max_delay, work.team,
+                                context.tiles.has_value());
     return;
   }
-  const std::int64_t steps = ground.engine->grid().points();
+  const std::int64_t steps = context.engine->grid().points();
   const LevelBounds bounds{&invariant,
                            coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
   std::optional<PartitionActions> actions;
@@ -49,44 +49,44 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
     }
     return actions->projections;
   };
-  find_or_take_levels(work, *ground.engine, bounds, all[p].layers_of, [&](const WaveWatch& watch) {
+  find_or_take_levels(work, *context.engine, bounds, all[p].layers_of, [&](const WaveWatch& watch) {
     std::vector<const LevelMap*> coarser;
     for (const std::size_t q : next_coarser(coordination.partitions, p)) coarser.push_back(&all[q].layers_of);
-    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, invariant, projections(), coarser,
-                                          coordination.max_delay, watch, work.team, ground.over_or_null());
+    DelayLayers found = find_delay_layers(*context.engine, *context.hull, invariant, projections(), coarser,
+                                          coordination.max_delay, watch, work.team, context.over_or_null());
     all[p].counts = found.counts;
     return std::move(found.layers_of);
   });
   DelayLayers& layers = all[p];
   follow_from_levels(coordination.max_delay, work.team, layers);
-  if (!counts_leaving(ground, layers)) return;
+  if (!counts_leaving(context, layers)) return;
   layers.leaving = 0;
-  if (layers.sizes.back() == ground.over_cells) return;
+  if (layers.sizes.back() == context.over_cells) return;
   const Projections& silent = projections();
   work.enter_part("safe sides");
   layers.leaving = count_leaving_cells(
       answers, silent, layers,
-      {.step = work.step ? [&](const WaveStep& step) { work.step(step, steps / ground.engine->rows()); }
+      {.step = work.step ? [&](const WaveStep& step) { work.step(step, steps / context.engine->rows()); }
                          : std::function<void(const WaveStep&)>()},
       work.team);
 }
 
 /// |Z_0 \ Z_D|; a layer beyond `max_delay` counts as empty, but for the cells of a goal that ends the task.
-std::int64_t cells_bound_to_connect(const Ground& ground, const DelayLayers& layers) {
-  const std::int64_t connection_delay = ground.spec.coordination.connection_delay;
+std::int64_t cells_bound_to_connect(const AnalysisContext& context, const DelayLayers& layers) {
+  const std::int64_t connection_delay = context.spec.coordination.connection_delay;
   const auto known = static_cast<std::int64_t>(layers.sizes.size());
-  if (connection_delay >= known && layers.truncated) return layers.sizes.front() - ground.over_cells;
+  if (connection_delay >= known && layers.truncated) return layers.sizes.front() - context.over_cells;
   return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
 }
 
 /// The largest delay times the period, over the cells in which the task goes on; null if a delay is unbounded
 /// or there are no such cells.
-Json longest_delay(const Ground& ground, const DelayLayers& layers) {
-  const std::int64_t fixed_point = layers.truncated ? ground.over_cells : layers.sizes.back();
-  if (fixed_point != ground.over_cells || layers.sizes.front() == ground.over_cells) return {};
+Json longest_delay(const AnalysisContext& context, const DelayLayers& layers) {
+  const std::int64_t fixed_point = layers.truncated ? context.over_cells : layers.sizes.back();
+  if (fixed_point != context.over_cells || layers.sizes.front() == context.over_cells) return {};
   // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
   const std::size_t steps = layers.sizes.size() - (layers.truncated ? 1 : 2);
-  return nearest_double(ground.spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
+  return nearest_double(context.spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
 }
 
 Json stored_json(const StoredPartition& partition) {
@@ -96,18 +96,19 @@ Json stored_json(const StoredPartition& partition) {
 }
 
 /// The sides of the domain at which the cells of the longest finite delay lie, if all lie at one.
-Json best_at_json(const Ground& ground, const DelayLayers& layers) {
+Json best_at_json(const AnalysisContext& context, const DelayLayers& layers) {
   Json json = Json::array();
-  for (const GridSide& side : sides_of_best_cells(ground, layers)) {
-    const GridDimension& dimension = ground.abstraction->grid[side.dimension];
+  for (const GridSide& side : sides_of_best_cells(context, layers)) {
+    const GridDimension& dimension = context.abstraction->grid[side.dimension];
     json.push_back({{"state", dimension.name},
                     {"value", nearest_double(dimension.point(side.above ? dimension.count - 1 : 0))}});
   }
   return json;
 }
 
-Json partition_json(const Ground& ground, const PartitionSpec& partition, const DelayLayers& layers) {
-  const ProblemSpec& spec = ground.spec;
+Json partition_json(const AnalysisContext& context, const PartitionSpec& partition,
+                    const DelayLayers& layers) {
+  const ProblemSpec& spec = context.spec;
   Json json;
   json["name"] = partition.name;
   json["classes"] = Json::array();
@@ -117,30 +118,31 @@ Json partition_json(const Ground& ground, const PartitionSpec& partition, const 
   json["leaving"] = layers.leaving ? Json(*layers.leaving) : Json();
   json["layers"] = layers.sizes;
   json["truncated"] = layers.truncated;
-  json["never_without_connection"] = cells_bound_to_connect(ground, layers);
-  json["max_delay_time"] = longest_delay(ground, layers);
-  json["best_at_edges"] = best_at_json(ground, layers);
+  json["never_without_connection"] = cells_bound_to_connect(context, layers);
+  json["max_delay_time"] = longest_delay(context, layers);
+  json["best_at_edges"] = best_at_json(context, layers);
   return json;
 }
 
 }  // namespace
 
 PartitionActions::PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team)
-    : grouping(*answers.ground.engine,
-               input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
-                             answers.ground.spec.coordination.partitions[p]),
+    : grouping(*answers.context.engine,
+               input_classes(answers.context.spec, answers.context.abstraction->inputs,
+                             answers.context.spec.coordination.partitions[p]),
                team),
-      symmetry(answers.ground.symmetry(input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
-                                                     answers.ground.spec.coordination.partitions[p]))),
-      projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, team,
-                  answers.ground.equal(symmetry ? &*symmetry : nullptr)) {}
+      symmetry(
+          answers.context.symmetry(input_classes(answers.context.spec, answers.context.abstraction->inputs,
+                                                 answers.context.spec.coordination.partitions[p]))),
+      projections(answers.get<GoingOn>().controller, grouping, *answers.context.hull, team,
+                  answers.context.equal(symmetry ? &*symmetry : nullptr)) {}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   std::vector<Stage> stages;
   for (const std::size_t p : coarsest_first(partitions)) {
     stages.push_back({"layers " + partitions[p].name, [p](Answers& answers, const StageWork& work) {
-                        const std::size_t count = answers.ground.spec.coordination.partitions.size();
+                        const std::size_t count = answers.context.spec.coordination.partitions.size();
                         if (answers.find<PartitionLayers>() == nullptr)
                           answers.add(PartitionLayers{std::vector<DelayLayers>(count)});
                         find_layers_of(p, answers, work);
@@ -150,7 +152,7 @@ std::vector<Stage> layers_stages(const ProblemSpec& spec) {
 }
 
 void summarise_layers(const Answers& answers, Json& summary, Json& work) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   summary["period"] = nearest_double(spec.dynamics.period);
   summary["period_unit"] = spec.dynamics.unit;
   summary["connection_delay"] = spec.coordination.connection_delay;
@@ -158,7 +160,7 @@ void summarise_layers(const Answers& answers, Json& summary, Json& work) {
   for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
     const PartitionSpec& partition = spec.coordination.partitions[p];
     const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
-    summary["partitions"].push_back(partition_json(answers.ground, partition, layers));
+    summary["partitions"].push_back(partition_json(answers.context, partition, layers));
     work["layers " + partition.name] = work_json(layers.counts);
   }
 }

@@ -34,16 +34,16 @@ struct Touched {
 
 }  // namespace
 
-std::vector<GridSide> sides_of_best_cells(const Ground& ground, const DelayLayers& layers) {
+std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const DelayLayers& layers) {
   const auto last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
   if (layers.truncated || last < 2) return {};
-  const UniformGrid& grid = ground.abstraction->grid;
+  const UniformGrid& grid = context.abstraction->grid;
   Touched touched{std::vector<std::int64_t>(2 * grid.size(), 0)};
   layers.layers_of.visit([&](const auto& levels) {
-    const std::int64_t begin = ground.share ? ground.share->own().begin : 0;
-    const std::int64_t end = ground.share ? ground.share->own().end : levels.rows();
+    const std::int64_t begin = context.share ? context.share->own().begin : 0;
+    const std::int64_t end = context.share ? context.share->own().end : levels.rows();
     // A single process may stop at the first best cell that is inside.
-    for (std::int64_t r = begin; r < end && (ground.share || touched.inside == 0); ++r) {
+    for (std::int64_t r = begin; r < end && (context.share || touched.inside == 0); ++r) {
       const auto* const row = levels.row(r);
       levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
         for (const auto* at = std::find(row + lane, row + lane + count, last); at != row + lane + count;
@@ -52,9 +52,9 @@ std::vector<GridSide> sides_of_best_cells(const Ground& ground, const DelayLayer
       });
     }
   });
-  if (ground.share) {
+  if (context.share) {
     touched.sides.push_back(touched.inside);
-    ground.ranks->add(touched.sides);
+    context.ranks->add(touched.sides);
     touched.inside = touched.sides.back();
     touched.sides.pop_back();
   }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 #include "answers/layers/delay_layers.hpp"
 
 namespace coordreq {
@@ -17,6 +17,7 @@ struct GridSide {
 /// then a larger domain may hold cells that tolerate more. Sides do not count that are limits of the system
 /// itself (`stop`), that are `safe`, or that belong to discrete states. Empty if there is no finite delay
 /// above 0, or if none is known to be the longest. Together.
-[[nodiscard]] std::vector<GridSide> sides_of_best_cells(const Ground& ground, const DelayLayers& layers);
+[[nodiscard]] std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context,
+                                                        const DelayLayers& layers);
 
 }  // namespace coordreq

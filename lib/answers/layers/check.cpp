@@ -22,13 +22,13 @@ std::int32_t trigger_by_definition(std::int32_t delay, std::int64_t connection_d
 
 /// Findings of one partition that all threads share.
 struct PartitionTallies {
-  PartitionTallies(const CheckGround& ground, std::size_t p)
-      : claims(*ground.spec, *ground.claims, p),
+  PartitionTallies(const CheckContext& context, std::size_t p)
+      : claims(*context.spec, *context.claims, p),
         delay("delay " + claims.partition.name),
         trigger("trigger " + claims.partition.name),
         actions("actions " + claims.partition.name) {
     for (const auto& agents : claims.partition.classes)
-      classes.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+      classes.emplace_back(class_of(*context.spec, *context.inputs, agents)).tabulate();
   }
 
   PartitionClaims claims;
@@ -38,8 +38,8 @@ struct PartitionTallies {
 
 class PartitionChecker {
  public:
-  PartitionChecker(const CheckGround& ground, PartitionTallies& tallies)
-      : ground_(ground), claims_(tallies.claims), tallies_(tallies), classes_(tallies.classes) {
+  PartitionChecker(const CheckContext& context, PartitionTallies& tallies)
+      : context_(context), claims_(tallies.claims), tallies_(tallies), classes_(tallies.classes) {
     for (const InputClass& own : classes_) projection_.emplace_back(static_cast<std::size_t>(own.actions()));
   }
 
@@ -74,14 +74,14 @@ class PartitionChecker {
       const BitDifference own = compare_bits(bytes, cell.at(), projection);
       found = {.extra = found.extra + own.extra, .fewer = found.fewer || own.fewer};
       const std::size_t length = (projection.size() + 7) / 8;
-      for (std::size_t a = 0; ground_.sound_only() && a < projection.size(); ++a) {
+      for (std::size_t a = 0; context_.sound_only() && a < projection.size(); ++a) {
         if ((bytes[cell.at() * length + a / 8] >> (a % 8) & 1U) == 0) projection[a] = 0;
       }
     }
     if (found.extra > 0) {
       tallies_.actions.add_wrong(
           cell.number(), [&] { return fmt::format("{}: {} actions too many", cell.place(), found.extra); });
-    } else if (found.fewer && ground_.sound_only()) {
+    } else if (found.fewer && context_.sound_only()) {
       tallies_.actions.add_unproven();
     } else if (found.fewer) {
       tallies_.actions.add_wrong(cell.number(), [&] { return cell.place() + ": actions are missing"; });
@@ -98,7 +98,7 @@ class PartitionChecker {
   [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell) const {
     bool any = cell.is_over();
     std::int32_t worst = kForever;
-    const std::int64_t inputs = cell.is_over() ? 0 : ground_.inputs->count();
+    const std::int64_t inputs = cell.is_over() ? 0 : context_.inputs->count();
     for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
       if (!is_choice(u)) continue;
       any = true;
@@ -107,7 +107,7 @@ class PartitionChecker {
       worst = std::min(worst, std::max(least, kOutsideInvariant));
     }
     const std::int32_t delay = any ? one_more(worst) : 0;
-    const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
+    const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
     const bool truncated = claims_.fixed_point_index < 0 && most.has_value();
     return truncated ? std::min(delay, static_cast<std::int32_t>(*most)) : delay;
   }
@@ -117,7 +117,7 @@ class PartitionChecker {
     const std::int32_t claimed = claims_.delay[cell.at()];
     if (claimed == expected) return;
     const bool other_choices = claims_.actions.empty();  // choices may differ: the file does not have them
-    if (ground_.sound_only() && expected >= 0 && claimed >= 0 && (claimed < expected || other_choices)) {
+    if (context_.sound_only() && expected >= 0 && claimed >= 0 && (claimed < expected || other_choices)) {
       tallies_.delay.add_unproven();
     } else {
       add_wrong_steps(tallies_.delay, cell, claimed, expected);
@@ -127,12 +127,12 @@ class PartitionChecker {
   void check_trigger(const CheckedCell& cell) {
     tallies_.trigger.add_checked(1);
     const std::int32_t expected =
-        trigger_by_definition(claims_.delay[cell.at()], ground_.spec->coordination.connection_delay);
+        trigger_by_definition(claims_.delay[cell.at()], context_.spec->coordination.connection_delay);
     const std::int32_t claimed = claims_.trigger[cell.at()];
     if (claimed != expected) add_wrong_steps(tallies_.trigger, cell, claimed, expected);
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const PartitionClaims& claims_;
   PartitionTallies& tallies_;
   const std::vector<InputClass>& classes_;
@@ -141,8 +141,8 @@ class PartitionChecker {
 
 class DelayChecker : public CellChecker {
  public:
-  DelayChecker(const CheckGround& ground, std::deque<PartitionTallies>& tallies) {
-    for (PartitionTallies& own : tallies) partitions_.emplace_back(ground, own);
+  DelayChecker(const CheckContext& context, std::deque<PartitionTallies>& tallies) {
+    for (PartitionTallies& own : tallies) partitions_.emplace_back(context, own);
   }
   void check(CheckedCell& cell) override {
     for (PartitionChecker& partition : partitions_) partition.check(cell);
@@ -154,22 +154,22 @@ class DelayChecker : public CellChecker {
 
 class LayersCheck : public AnswerCheck {
  public:
-  explicit LayersCheck(const CheckGround& ground) : AnswerCheck(CheckSection::steps), ground_(ground) {
-    for (std::size_t p = 0; p < ground.spec->coordination.partitions.size(); ++p)
-      tallies_.emplace_back(ground, p);
+  explicit LayersCheck(const CheckContext& context) : AnswerCheck(CheckSection::steps), context_(context) {
+    for (std::size_t p = 0; p < context.spec->coordination.partitions.size(); ++p)
+      tallies_.emplace_back(context, p);
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::vector<Finding> findings;
     std::size_t longest = 1;
     for (const PartitionTallies& own : tallies_)
-      findings.push_back(compare_layers(*ground_.spec, *ground_.claims, own.claims, longest));
+      findings.push_back(compare_layers(*context_.spec, *context_.claims, own.claims, longest));
     const std::size_t row = tallies_.empty() ? longest : tallies_.front().claims.layer_sizes.size();
     sizes.expect("length of /layer", row, longest);
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<DelayChecker>(ground_, tallies_);
+    return std::make_unique<DelayChecker>(context_, tallies_);
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
@@ -182,14 +182,14 @@ class LayersCheck : public AnswerCheck {
   }
 
  private:
-  const CheckGround& ground_;
+  const CheckContext& context_;
   std::deque<PartitionTallies> tallies_;  ///< [partition]; tallies cannot be moved
 };
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_layers(const CheckGround& ground) {
-  return std::make_unique<LayersCheck>(ground);
+std::unique_ptr<AnswerCheck> check_layers(const CheckContext& context) {
+  return std::make_unique<LayersCheck>(context);
 }
 
 }  // namespace coordreq

@@ -12,6 +12,6 @@ namespace coordreq {
 ///   membership in every layer, and that a cell is not in the next;
 /// - triggers from delays, and stored actions from C(x);
 /// - F, whether max_delay stopped the iteration, layer sizes and layer lists against the delays.
-[[nodiscard]] std::unique_ptr<AnswerCheck> check_layers(const CheckGround& ground);
+[[nodiscard]] std::unique_ptr<AnswerCheck> check_layers(const CheckContext& context);
 
 }  // namespace coordreq

@@ -83,9 +83,9 @@ void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cel
 }
 
 void fill_steps(const Answers& answers, const std::vector<DelayLayers>& partitions, FieldValues& values) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.ground.order;
+  const CellOrder& order = *answers.context.order;
   const ElementType type = delay_type(partitions);
   std::vector<ResultArray> delays, triggers;
   for (const DelayLayers& layers : partitions) {
@@ -104,7 +104,7 @@ void fill_lists(const Answers& answers, const PartitionSpec& partition, const De
   values.lengths[group + "/bound"] = start.size();
   values.lengths[group + "/position"] = start.back();
   values.entries[group + "/start"].array = owned_array(ElementType::uint64, std::move(start));
-  values.entries[group + "/cell"].array = layer_cells(layers, *answers.ground.order, cache);
+  values.entries[group + "/cell"].array = layer_cells(layers, *answers.context.order, cache);
 }
 
 using GroupingCache = LastValueCache<std::size_t, ActionGrouping>;
@@ -113,12 +113,13 @@ using GroupingCache = LastValueCache<std::size_t, ActionGrouping>;
 ResultArray action_array(const Answers& answers, std::size_t p, std::size_t c,
                          const std::shared_ptr<GroupingCache>& cache) {
   return {ElementType::uint8, [&answers, p, c, cache](std::uint64_t begin, std::uint64_t count, void* out) {
-            const Ground& ground = answers.ground;
+            const AnalysisContext& context = answers.context;
             const auto grouping = cache->get(p, [&] {
               ThreadTeam alone(1);  // the other threads wait for it, in a loop of their own
-              const PartitionSpec& partition = ground.spec.coordination.partitions[p];
-              return ActionGrouping(*ground.engine,
-                                    input_classes(ground.spec, ground.abstraction->inputs, partition), alone);
+              const PartitionSpec& partition = context.spec.coordination.partitions[p];
+              return ActionGrouping(*context.engine,
+                                    input_classes(context.spec, context.abstraction->inputs, partition),
+                                    alone);
             });
             fill_action_bits(answers.get<Controller>(), *grouping, c, begin, count, out);
           }};
@@ -224,7 +225,7 @@ void fill_layer_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues
   const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
   fill_steps(answers, partitions, values);
   fill_sizes(pointers_to(partitions), "/", values);
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const auto cells = std::make_shared<CellsCache>();
   const auto grouping = std::make_shared<GroupingCache>();
   for (std::size_t p = 0; p < partitions.size(); ++p) {

@@ -25,8 +25,8 @@ bool is_safe(const GridDimension& dimension, bool above) {
 class LeavingInput {
  public:
   explicit LeavingInput(const Answers& answers)
-      : ground_(answers.ground),
-        abstraction_(*ground_.abstraction),
+      : context_(answers.context),
+        abstraction_(*context_.abstraction),
         grid_(abstraction_.grid),
         invariant_(answers.get<Invariance>().invariant),
         posts_(abstraction_) {
@@ -88,19 +88,19 @@ class LeavingInput {
   }
 
   [[nodiscard]] bool is_admissible(std::int64_t x, std::int64_t u) {
-    const PairTable* const allow = ground_.pairs.admissible();
+    const PairTable* const allow = context_.pairs.admissible();
     const std::int64_t row = x / grid_.row_length(), column = x % grid_.row_length();
     if (allow != nullptr &&
         (allow->row(row, u)[at(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) & 1) == 0)
       return false;
-    if (ground_.spec.controller.synthesis == Synthesis::given) return true;
-    const CellPost post = posts_.post(u, ground_.tubes());
+    if (context_.spec.controller.synthesis == Synthesis::given) return true;
+    const CellPost post = posts_.post(u, context_.tubes());
     if (post.blocked != CellPost::Blocked::no) return false;
     return post.all_left ||
            for_each_cell(grid_, post.box, [this](std::int64_t cell) { return invariant_.test(cell); });
   }
 
-  const Ground& ground_;
+  const AnalysisContext& context_;
   const Abstraction& abstraction_;
   const UniformGrid& grid_;
   const CellSet& invariant_;
@@ -111,10 +111,10 @@ class LeavingInput {
 
 /// Removes the cells from which some joint input leaves, in the rows owned.
 void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   std::vector<std::unique_ptr<LeavingInput>> inputs;
   for (int w = 0; w < team.size(); ++w) inputs.push_back(std::make_unique<LeavingInput>(answers));
-  const RowEngine& engine = *ground.engine;
+  const RowEngine& engine = *context.engine;
   for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
     LeavingInput& input = *inputs[at(worker)];
     std::vector<std::int64_t> found;
@@ -123,7 +123,7 @@ void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) 
       found.clear();
       for_each_bit(row, [&](std::int64_t lane) {
         const std::int64_t x = r * engine.row_length() + lane;
-        if ((ground.over && ground.over->test(x)) || !input.is_at(x)) return;
+        if ((context.over && context.over->test(x)) || !input.is_at(x)) return;
         found.push_back(lane);
       });
       for (const std::int64_t lane : found)
@@ -153,21 +153,21 @@ bool has_safe_side(const ProblemSpec& spec) {
 
 std::int64_t count_leaving_cells(const Answers& answers, const Projections& projections,
                                  const DelayLayers& layers, const WaveWatch& watch, ThreadTeam& team) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   CellSet cells = layers.layers_of.top_cells(team);
   take_out_leaving(answers, team, cells);
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
-    return std::make_unique<IndependentActions<Level>>(projections, *ground.hull, invariant, team.size());
+    return std::make_unique<IndependentActions<Level>>(projections, *context.hull, invariant, team.size());
   };
-  const LevelProblem problem{.spared = ground.over_or_null(),
+  const LevelProblem problem{.spared = context.over_or_null(),
                              .equal = projections.equal_work(),
                              .make8 = [&] { return make(std::uint8_t{}); },
                              .make16 = [&] { return make(std::uint16_t{}); },
                              .make32 = [&] { return make(std::uint32_t{}); }};
-  LevelMap start = first_levels(*ground.engine, cells, problem.equal.tiles != nullptr, team);
+  LevelMap start = first_levels(*context.engine, cells, problem.equal.tiles != nullptr, team);
   WaveCounts counts;
-  const LevelMap steps = find_levels(*ground.engine, *ground.hull, problem,
+  const LevelMap steps = find_levels(*context.engine, *context.hull, problem,
                                      {.step = watch.step, .resumed = &start}, team, counts);
   return layers.sizes.back() - steps.histogram(team).top;
 }

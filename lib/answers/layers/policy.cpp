@@ -17,7 +17,7 @@ std::vector<AnswerPolicy> layer_policies(const ProblemSpec& /*spec*/) {
   return {{.words = "actions",
            .delay = paths::kDelay,
            .trigger = paths::kTrigger,
-           .make = [](const PolicyGround& /*ground*/) -> std::unique_ptr<CellPolicy> {
+           .make = [](const PolicyContext& /*context*/) -> std::unique_ptr<CellPolicy> {
              return std::make_unique<DelayPolicy>();
            },
            .stored = paths::actions}};

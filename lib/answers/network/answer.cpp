@@ -21,30 +21,30 @@ void serialise(Archive& archive, const RowShare* share, const CellSet& invariant
 }
 
 void find_safe_sets(Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   NetworkSafety& result = answers.add(NetworkSafety{});
   std::vector<CellSet> sets;
   const auto load = [&](Archive& archive) {
-    sets.assign(ground.spec.network->modes.size(), CellSet(invariant.rows(), invariant.row_length()));
-    serialise(archive, ground.shared_rows(), invariant, sets);
+    sets.assign(context.spec.network->modes.size(), CellSet(invariant.rows(), invariant.row_length()));
+    serialise(archive, context.shared_rows(), invariant, sets);
   };
   const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
   if (kept == StageStore::Kept::finished) {
     result.safe = std::move(sets);
   } else {
-    const SaveState save = [share = ground.shared_rows()](Archive& archive,
-                                                          std::span<const NumberRows> state) {
+    const SaveState save = [share = context.shared_rows()](Archive& archive,
+                                                           std::span<const NumberRows> state) {
       for (const NumberRows& set : state) serialise_rows(archive, share, set);
     };
-    const NetworkWatch watch{.step = step_of(work, *ground.engine, save),
+    const NetworkWatch watch{.step = step_of(work, *context.engine, save),
                              .resumed = kept == StageStore::Kept::unfinished ? &sets : nullptr};
     const NetworkProblem problem = network_problem(answers);
     result = find_network_safety(problem, watch, work.team);
   }
   if (work.store == nullptr) return;
   work.store->finish([&](Archive& archive) {
-    serialise(archive, answers.ground.shared_rows(), answers.get<Invariance>().invariant,
+    serialise(archive, answers.context.shared_rows(), answers.get<Invariance>().invariant,
               answers.get<NetworkSafety>().safe);
   });
 }
@@ -64,8 +64,8 @@ CellSet safe_in_every_mode(const NetworkSafety& safety, const RowShare* share) {
   return every;
 }
 
-Json network_json(const Ground& ground, const NetworkSafety& safety) {
-  const NetworkSpec& spec = *ground.spec.network;
+Json network_json(const AnalysisContext& context, const NetworkSafety& safety) {
+  const NetworkSpec& spec = *context.spec.network;
   Json json;
   json["kind"] = network_kind_name(spec.kind);
   json["resynthesise"] = spec.resynthesise;
@@ -74,9 +74,9 @@ Json network_json(const Ground& ground, const NetworkSafety& safety) {
   for (std::size_t mode = 0; mode < spec.modes.size(); ++mode) {
     json["modes"].push_back({{"name", spec.modes[mode].name},
                              {"partition", spec.modes[mode].partition.name},
-                             {"cells", ground.count(safety.safe[mode])}});
+                             {"cells", context.count(safety.safe[mode])}});
   }
-  json["cells_in_every_mode"] = ground.count(safe_in_every_mode(safety, ground.shared_rows()));
+  json["cells_in_every_mode"] = context.count(safe_in_every_mode(safety, context.shared_rows()));
   return json;
 }
 
@@ -90,7 +90,7 @@ std::vector<Stage> network_stages(const ProblemSpec& spec) {
 void summarise_network(const Answers& answers, Json& summary, Json& work) {
   const auto* const safety = answers.find<NetworkSafety>();
   if (safety == nullptr) return;
-  summary["network"] = network_json(answers.ground, *safety);
+  summary["network"] = network_json(answers.context, *safety);
   work["network"] = work_json(safety->counts);
 }
 

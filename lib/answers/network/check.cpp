@@ -17,16 +17,16 @@ constexpr char kNetworkSafe[] = "/network_safe";
 
 /// Data that all threads read.
 struct Network {
-  explicit Network(const CheckGround& ground) : spec(*ground.spec->network) {
+  explicit Network(const CheckContext& context) : spec(*context.spec->network) {
     for (const NetworkModeSpec& mode : spec.modes) {
       const auto known = std::find(partitions.begin(), partitions.end(), mode.partition.classes);
       partition_of.push_back(static_cast<std::size_t>(known - partitions.begin()));
       if (known == partitions.end()) partitions.push_back(mode.partition.classes);
     }
-    target.assign(spec.modes.size(), Members(static_cast<std::size_t>(ground.grid->cells()), 1));
+    target.assign(spec.modes.size(), Members(static_cast<std::size_t>(context.grid->cells()), 1));
     for (const auto& [from, to] : spec.transitions) {
       Members& own = target[static_cast<std::size_t>(from)];
-      const Members& next = ground.claims->members(kNetworkSafe, static_cast<std::size_t>(to));
+      const Members& next = context.claims->members(kNetworkSafe, static_cast<std::size_t>(to));
       for (std::size_t x = 0; x < own.size(); ++x) own[x] = own[x] & next[x];
     }
   }
@@ -39,14 +39,14 @@ struct Network {
 
 class NetworkChecker : public CellChecker {
  public:
-  NetworkChecker(const CheckGround& ground, const Network& network, Tally& tally)
-      : ground_(ground),
+  NetworkChecker(const CheckContext& context, const Network& network, Tally& tally)
+      : context_(context),
         network_(network),
         tally_(tally),
-        claimed_(ground.claims->at(kNetworkSafe).members),
-        inputs_(static_cast<std::size_t>(ground.inputs->count())),
+        claimed_(context.claims->at(kNetworkSafe).members),
+        inputs_(static_cast<std::size_t>(context.inputs->count())),
         choices_(network.partitions.size()) {
-    for (const auto& partition : network.partitions) independent_.emplace_back(ground, partition);
+    for (const auto& partition : network.partitions) independent_.emplace_back(context, partition);
   }
 
   void check(CheckedCell& cell) override {
@@ -103,7 +103,7 @@ class NetworkChecker : public CellChecker {
   /// Counts a claim as open if the posts, and so the choices of agents, may be others than those of the
   /// analysis; else as wrong.
   void doubt(std::size_t mode, const char* what) {
-    if (ground_.sound_only()) {
+    if (context_.sound_only()) {
       tally_.add_unproven();
     } else {
       complain(mode, what);
@@ -116,7 +116,7 @@ class NetworkChecker : public CellChecker {
     });
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const Network& network_;
   Tally& tally_;
   const std::vector<Members>& claimed_;  ///< [mode][cell]
@@ -128,14 +128,14 @@ class NetworkChecker : public CellChecker {
 
 class NetworkCheck : public AnswerCheck {
  public:
-  explicit NetworkCheck(const CheckGround& ground)
-      : AnswerCheck(CheckSection::modes), ground_(ground), network_(ground) {
+  explicit NetworkCheck(const CheckContext& context)
+      : AnswerCheck(CheckSection::modes), context_(context), network_(context) {
     tally_.set_note(network_.spec.resynthesise ? "safe, and perhaps less than what the iteration gives"
                                                : "a fixed point, not compared with others");
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
-    const FieldClaims& claims = ground_.claims->at(kNetworkSafe);
+    const FieldClaims& claims = context_.claims->at(kNetworkSafe);
     for (std::size_t mode = 0; mode < claims.members.size(); ++mode) {
       sizes.expect("cells of mode " + network_.spec.modes[mode].name, claims.cells[mode],
                    count_members(claims.members[mode]));
@@ -143,12 +143,12 @@ class NetworkCheck : public AnswerCheck {
     return {};
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<NetworkChecker>(ground_, network_, tally_);
+    return std::make_unique<NetworkChecker>(context_, network_, tally_);
   }
   [[nodiscard]] std::vector<Finding> findings() const override { return {tally_.finding()}; }
 
  private:
-  const CheckGround& ground_;
+  const CheckContext& context_;
   Network network_;
   Tally tally_{"network"};
 };
@@ -159,9 +159,9 @@ double network_check_memory(const ProblemSpec& spec) {
   return spec.network ? static_cast<double>(spec.network->modes.size()) : 0;
 }
 
-std::unique_ptr<AnswerCheck> check_network(const CheckGround& ground) {
-  if (!ground.spec->network) return nullptr;
-  return std::make_unique<NetworkCheck>(ground);
+std::unique_ptr<AnswerCheck> check_network(const CheckContext& context) {
+  if (!context.spec->network) return nullptr;
+  return std::make_unique<NetworkCheck>(context);
 }
 
 }  // namespace coordreq

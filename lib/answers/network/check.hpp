@@ -16,7 +16,7 @@ namespace coordreq {
 ///   checked. Either way agents are safe from all claimed cells. Also checks the number of cells of each
 ///   W(q).
 /// @returns null: the spec has no network
-[[nodiscard]] std::unique_ptr<AnswerCheck> check_network(const CheckGround& ground);
+[[nodiscard]] std::unique_ptr<AnswerCheck> check_network(const CheckContext& context);
 
 /// Bytes a cell: the target T(q) of each mode.
 [[nodiscard]] double network_check_memory(const ProblemSpec& spec);

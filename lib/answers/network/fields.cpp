@@ -38,8 +38,8 @@ void fill_network_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValu
   if (network == nullptr) return;
   std::vector<std::uint64_t> cells;
   for (const CellSet& safe : network->safe)
-    cells.push_back(static_cast<std::uint64_t>(answers.ground.count(safe)));
-  values.entries[paths::kNetworkSafe] = {.array = sets_array(network->safe, *answers.ground.order),
+    cells.push_back(static_cast<std::uint64_t>(answers.context.count(safe)));
+  values.entries[paths::kNetworkSafe] = {.array = sets_array(network->safe, *answers.context.order),
                                          .attributes = {{"cells", std::move(cells)}}};
 }
 

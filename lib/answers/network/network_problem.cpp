@@ -43,11 +43,11 @@ NetworkProblem network_problem(const ProblemSpec& spec, const Controller& contro
 }
 
 NetworkProblem network_problem(const Answers& answers) {
-  REQUIRES(answers.ground.spec.network.has_value());
-  const Ground& ground = answers.ground;
-  NetworkProblem problem = network_problem(ground.spec, answers.get<GoingOn>().controller, *ground.hull);
+  REQUIRES(answers.context.spec.network.has_value());
+  const AnalysisContext& context = answers.context;
+  NetworkProblem problem = network_problem(context.spec, answers.get<GoingOn>().controller, *context.hull);
   problem.invariant = &answers.get<Invariance>().invariant;
-  problem.over = ground.over_or_null();
+  problem.over = context.over_or_null();
   return problem;
 }
 

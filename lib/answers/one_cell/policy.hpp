@@ -28,7 +28,7 @@ class ByteTables {
 };
 
 /// The data of policies: from a results file, or from arrays in memory.
-struct PolicyGround {
+struct PolicyContext {
   const ProblemSpec* spec = nullptr;
   const PartitionSpec* partition = nullptr;  ///< the partition that agents are in
   const ByteTables* tables = nullptr;
@@ -92,7 +92,7 @@ struct AnswerPolicy {
   bool is_on_request = false;
   bool is_anywhere = false;  ///< the policy is about all cells of S
   bool is_by_agent = false;  ///< the policy is of agents, each by itself, in every partition
-  std::unique_ptr<CellPolicy> (*make)(const PolicyGround& ground) = nullptr;
+  std::unique_ptr<CellPolicy> (*make)(const PolicyContext& context) = nullptr;
   /// The path of the actions of a class, by its number, if they are stored on request; null: they never are.
   std::string (*stored)(const ProblemSpec& spec, const PartitionSpec& partition, std::size_t c) = nullptr;
   /// Comments of a C header: where the policy holds ("on the way to the goal"), and about the policy, its

@@ -173,7 +173,7 @@ Json requirement_json(const ResultRequirement& result, const RequirementSpec& as
 std::vector<Stage> requirements_checks(const ProblemSpec& spec) {
   if (spec.requirements.empty()) return {};
   return {{"regions",
-           [](Answers& answers, const StageWork& work) { check_regions(answers.ground.spec, work.team); }}};
+           [](Answers& answers, const StageWork& work) { check_regions(answers.context.spec, work.team); }}};
 }
 
 std::vector<Stage> requirements_stages(const ProblemSpec& spec) {
@@ -184,7 +184,7 @@ std::vector<Stage> requirements_stages(const ProblemSpec& spec) {
 }
 
 void summarise_requirements(const Answers& answers, Json& summary, Json& /*work*/) {
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   summary["requirements"] = Json::array();
   const auto* const verdicts = answers.find<RequirementVerdicts>();
   for (std::size_t r = 0; r < spec.requirements.size(); ++r)

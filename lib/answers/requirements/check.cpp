@@ -48,17 +48,17 @@ struct Bounds {
 
 class RequirementChecker {
  public:
-  RequirementChecker(const CheckGround& ground, std::size_t number, const ResultRequirement& claim,
+  RequirementChecker(const CheckContext& context, std::size_t number, const ResultRequirement& claim,
                      ThreadTeam& team)
-      : ground_(ground),
-        asked_(ground.spec->requirements[number]),
+      : context_(context),
+        asked_(context.spec->requirements[number]),
         claim_(claim),
-        value_of_(*ground.claims, asked_),
-        collision_time_(ground.claims->values("/collision_time")),
-        region_(*ground.spec, asked_.where, *ground.grid, ground.claims->same_version, team),
+        value_of_(*context.claims, asked_),
+        collision_time_(context.claims->values("/collision_time")),
+        region_(*context.spec, asked_.where, *context.grid, context.claims->same_version, team),
         tally_("requirement " + asked_.name) {
     if (asked_.kind != RequirementKind::max_risk) return;
-    const Rational rate = exact(ground.claims->number("/risk", "rate"));
+    const Rational rate = exact(context.claims->number("/risk", "rate"));
     most_risk_ = asked_.risk - rate * static_cast<long>(asked_.steps);
   }
 
@@ -95,7 +95,7 @@ class RequirementChecker {
   [[nodiscard]] Bounds find_bounds(ThreadTeam& team) const {
     Bounds all;
     std::mutex mutex;
-    team.for_each(ground_.grid->cells(), 4096, [&](ThreadTeam::Range range, int) {
+    team.for_each(context_.grid->cells(), 4096, [&](ThreadTeam::Range range, int) {
       Bounds part;
       for (std::int64_t x = range.begin; x < range.end; ++x) add(x, part);
       const std::lock_guard lock(mutex);
@@ -142,15 +142,15 @@ class RequirementChecker {
   /// Checks the first side beyond which the region reaches.
   void check_reach() {
     const auto is_unsafe = [this](const ResultSide& side) {
-      const StateSpec& state = ground_.spec->states[side.state];
+      const StateSpec& state = context_.spec->states[side.state];
       return (side.above ? state.above : state.below) == Outside::unsafe;
     };
-    for (std::size_t i = 0; i < ground_.grid->size(); ++i) {
+    for (std::size_t i = 0; i < context_.grid->size(); ++i) {
       for (const bool above : {false, true}) {
         const ResultSide side{.state = i, .above = above};
         const bool claimed = claim_.reached_side == side;
         const Reach reach =
-            is_unsafe(side) ? reach_beyond(*ground_.spec, asked_.where, *ground_.grid, side) : Reach::never;
+            is_unsafe(side) ? reach_beyond(*context_.spec, asked_.where, *context_.grid, side) : Reach::never;
         if (claimed && reach == Reach::never) wrong("the region does not reach beyond the side named");
         if (claimed) return;
         if (reach == Reach::reached) wrong("the region reaches beyond a side that is not named");
@@ -172,13 +172,13 @@ class RequirementChecker {
     const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
     const std::int32_t soonest = value >= 0 ? value + 1 : is_after ? 1 : collision_time_[first];
     if (path.seen > 0 && path.seen < soonest) wrong("the system itself leaves sooner than is proven");
-    PathChecker(ground_, asked_).check(path, tally_);
+    PathChecker(context_, asked_).check(path, tally_);
   }
 
   /// Whether there is `then`: the file does not have the steps after which it leaves S.
-  [[nodiscard]] bool has_then() const { return ground_.spec->silence && ground_.spec->silence->has_then(); }
+  [[nodiscard]] bool has_then() const { return context_.spec->silence && context_.spec->silence->has_then(); }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const RequirementSpec& asked_;
   const ResultRequirement& claim_;
   ClaimedValues value_of_;
@@ -191,10 +191,10 @@ class RequirementChecker {
 
 class RequirementsCheck : public AnswerCheck {
  public:
-  explicit RequirementsCheck(const CheckGround& ground)
+  explicit RequirementsCheck(const CheckContext& context)
       : AnswerCheck(CheckSection::requirements),
-        ground_(ground),
-        claims_(read_requirement_values(*ground.spec, *ground.claims)) {}
+        context_(context),
+        claims_(read_requirement_values(*context.spec, *context.claims)) {}
 
   [[nodiscard]] std::vector<std::uint64_t> more_cells() const override {
     std::vector<std::uint64_t> cells;
@@ -205,12 +205,12 @@ class RequirementsCheck : public AnswerCheck {
   }
   void check_all(ThreadTeam& team) override {
     for (std::size_t r = 0; r < claims_.size(); ++r)
-      findings_.push_back(RequirementChecker(ground_, r, claims_[r], team).run(team));
+      findings_.push_back(RequirementChecker(context_, r, claims_[r], team).run(team));
   }
   [[nodiscard]] std::vector<Finding> findings() const override { return findings_; }
 
  private:
-  const CheckGround& ground_;
+  const CheckContext& context_;
   std::vector<ResultRequirement> claims_;
   std::vector<Finding> findings_;
 };
@@ -221,8 +221,8 @@ double requirements_check_memory(const ProblemSpec& spec) {
   return spec.requirements.empty() ? 0 : 1;
 }
 
-std::unique_ptr<AnswerCheck> check_requirements(const CheckGround& ground) {
-  return std::make_unique<RequirementsCheck>(ground);
+std::unique_ptr<AnswerCheck> check_requirements(const CheckContext& context) {
+  return std::make_unique<RequirementsCheck>(context);
 }
 
 }  // namespace coordreq

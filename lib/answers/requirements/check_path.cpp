@@ -9,24 +9,24 @@
 
 namespace coordreq {
 
-PathChecker::PathChecker(const CheckGround& ground, const RequirementSpec& asked)
-    : ground_(ground),
+PathChecker::PathChecker(const CheckContext& context, const RequirementSpec& asked)
+    : context_(context),
       asked_(asked),
-      value_of_(*ground.claims, asked),
-      invariant_(ground.claims->members("/invariant")),
-      collision_time_(ground.claims->values("/collision_time")),
-      cell_(ground) {
+      value_of_(*context.claims, asked),
+      invariant_(context.claims->members("/invariant")),
+      collision_time_(context.claims->values("/collision_time")),
+      cell_(context) {
   if (asked.kind == RequirementKind::max_arrival || asked.kind == RequirementKind::min_approach_delay)
-    progress_.emplace(ground);
+    progress_.emplace(context);
   if (!asked.partition) return;
   partition_ = static_cast<std::size_t>(*asked.partition);
-  for (const auto& agents : ground.spec->coordination.partitions[*partition_].classes)
-    classes_.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+  for (const auto& agents : context.spec->coordination.partitions[*partition_].classes)
+    classes_.emplace_back(class_of(*context.spec, *context.inputs, agents)).tabulate();
   if (asked.kind != RequirementKind::min_silence) return;
-  const SilenceSpec& silence = *ground.spec->silence;
-  const auto& partition = ground.spec->coordination.partitions[*partition_].classes;
-  silent_.emplace(ground, silence.actions, "actions", partition);
-  if (silence.has_then()) afterwards_.emplace(ground, silence.then, "then", partition);
+  const SilenceSpec& silence = *context.spec->silence;
+  const auto& partition = context.spec->coordination.partitions[*partition_].classes;
+  silent_.emplace(context, silence.actions, "actions", partition);
+  if (silence.has_then()) afterwards_.emplace(context, silence.then, "then", partition);
 }
 
 void PathChecker::wrong(std::size_t number, const std::string& what) {
@@ -35,7 +35,7 @@ void PathChecker::wrong(std::size_t number, const std::string& what) {
 }
 
 void PathChecker::differs(std::size_t number, const std::string& what) {
-  if (ground_.sound_only()) {
+  if (context_.sound_only()) {
     tally_->add_unproven();
   } else {
     wrong(number, what);
@@ -53,7 +53,7 @@ void PathChecker::check(const ResultPath& path, Tally& tally) {
 
 void PathChecker::check_sample(std::size_t sample) {
   const auto cell = static_cast<std::int64_t>(path_->cell[sample]);
-  const UniformGrid& grid = *ground_.grid;
+  const UniformGrid& grid = *context_.grid;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (path_->state[sample * grid.size() + i] != nearest_double(grid[i].point(grid.index(cell, i))))
       wrong(sample, "the state is not the centre of the cell");
@@ -65,7 +65,7 @@ void PathChecker::check_sample(std::size_t sample) {
 
 /// The joint input with the values of a step.
 std::optional<std::int64_t> PathChecker::input_of(std::size_t step) const {
-  const InputSpace& inputs = *ground_.inputs;
+  const InputSpace& inputs = *context_.inputs;
   std::int64_t u = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const double value = path_->input[step * inputs.size() + i];
@@ -154,7 +154,7 @@ void PathChecker::check_independent(std::size_t step, std::int64_t u) {
   const bool is_blind = asked_.kind == RequirementKind::min_blind_delay;
   const auto delay_of = [&](std::size_t sample) {
     const char* const path = !is_blind ? "/delay" : sample == 0 ? "/blind_delay" : "/blind_countdown";
-    return ground_.claims->values(path, *partition_)[path_->cell[sample]];
+    return context_.claims->values(path, *partition_)[path_->cell[sample]];
   };
   const std::int32_t delay = delay_of(step);
   const bool goes_on = step + 1 < path_->samples();
@@ -233,7 +233,7 @@ void PathChecker::check_end() {
     if (!stays || safe) wrong(path_->samples(), "the last cell is in the safe set");
   } else if (path_->end == EscapeEnd::no_allowed_action) {
     bool any = false;
-    for (std::int64_t u = 0; safe && u < ground_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
+    for (std::int64_t u = 0; safe && u < context_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
     if (!stays || !safe || any) wrong(path_->samples(), "in the last cell something is allowed");
   } else if (path_->end == EscapeEnd::too_risky || asked_.kind == RequirementKind::max_risk) {
     const bool is_alone = path_->samples() == 1 && path_->steps() == 0;
@@ -258,8 +258,8 @@ void PathChecker::check_end() {
 /// one.
 bool PathChecker::ends_in_sight(std::size_t cell) const {
   return asked_.kind == RequirementKind::min_blind_delay &&
-         ground_.claims->values("/blind_countdown", *partition_)[cell] == 0 &&
-         ground_.claims->values("/delay", *partition_)[cell] >= 1;
+         context_.claims->values("/blind_countdown", *partition_)[cell] == 0 &&
+         context_.claims->values("/delay", *partition_)[cell] >= 1;
 }
 
 void PathChecker::check_goal_end() {
@@ -286,27 +286,27 @@ bool PathChecker::is_choice(std::int64_t u, const std::vector<std::uint8_t>& joi
 }
 
 std::size_t PathChecker::entry(const Posts& posts, std::size_t i, std::int64_t u) const {
-  return posts.tables[i]->entry_of(*ground_.grid, cell_.number()) + at(posts.input_part[i][at(u)]);
+  return posts.tables[i]->entry_of(*context_.grid, cell_.number()) + at(posts.input_part[i][at(u)]);
 }
 
 const ResolvedRange& PathChecker::range(std::size_t i, std::int64_t u) const {
-  return ground_.posts->resolved[i][entry(*ground_.posts, i, u)];
+  return context_.posts->resolved[i][entry(*context_.posts, i, u)];
 }
 
 bool PathChecker::is_blocked(std::int64_t u) const {
-  for (std::size_t i = 0; i < ground_.grid->size(); ++i) {
+  for (std::size_t i = 0; i < context_.grid->size(); ++i) {
     if (range(i, u).blocked) return true;
   }
   return false;
 }
 
 bool PathChecker::is_in_post(std::int64_t u, std::int64_t next) const {
-  for (std::size_t i = 0; i < ground_.grid->size(); ++i) {
+  for (std::size_t i = 0; i < context_.grid->size(); ++i) {
     const IndexRange inside = range(i, u).inside;
-    const std::int64_t k = ground_.grid->index(next, i);
-    const std::int64_t again = k + (*ground_.grid)[i].count;
+    const std::int64_t k = context_.grid->index(next, i);
+    const std::int64_t again = k + (*context_.grid)[i].count;
     const bool holds = (inside.first <= k && k <= inside.last) ||
-                       ((*ground_.grid)[i].periodic() && inside.first <= again && again <= inside.last);
+                       ((*context_.grid)[i].periodic() && inside.first <= again && again <= inside.last);
     if (!holds) return false;
   }
   return true;
@@ -314,7 +314,7 @@ bool PathChecker::is_in_post(std::int64_t u, std::int64_t next) const {
 
 /// Whether u leads out through a side, at the sample or, if tubes count, before it.
 bool PathChecker::leaves_domain(std::int64_t u, const ResultSide& side) const {
-  const GridDimension& dimension = (*ground_.grid)[side.state];
+  const GridDimension& dimension = (*context_.grid)[side.state];
   if ((side.above ? dimension.above : dimension.below) != Outside::unsafe) return false;
   const auto passes = [&](IndexRange raw) {
     return side.above ? raw.last >= dimension.count : raw.first < 0;
@@ -322,8 +322,8 @@ bool PathChecker::leaves_domain(std::int64_t u, const ResultSide& side) const {
   const auto raw_of = [&](const Posts& posts) {
     return posts.tables[side.state]->entries[entry(posts, side.state, u)];
   };
-  return passes(raw_of(*ground_.posts)) ||
-         (ground_.tubes != nullptr && passes(raw_of(ground_.tubes->covering)));
+  return passes(raw_of(*context_.posts)) ||
+         (context_.tubes != nullptr && passes(raw_of(context_.tubes->covering)));
 }
 
 }  // namespace coordreq

@@ -21,7 +21,7 @@ namespace coordreq {
 /// path is then a shortest one. On the way to the goal arrivals and approach delays take their place.
 class PathChecker {
  public:
-  PathChecker(const CheckGround& ground, const RequirementSpec& asked);
+  PathChecker(const CheckContext& context, const RequirementSpec& asked);
 
   /// @param tally of one requirement, for samples and steps
   void check(const ResultPath& path, Tally& tally);
@@ -55,7 +55,7 @@ class PathChecker {
   /// Counts a difference: as wrong, or as open if posts may be others than those of the analysis.
   void differs(std::size_t number, const std::string& what);
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   const RequirementSpec& asked_;
   ClaimedValues value_of_;
   const std::vector<std::uint8_t>& invariant_;

@@ -30,17 +30,17 @@ class EscapeFinder : public EscapeRun {
  public:
   explicit EscapeFinder(const EscapeSets& sets)
       : EscapeRun(sets),
-        grid_(ground_.abstraction->grid),
+        grid_(context_.abstraction->grid),
         invariant_(grid_, [&set = sets.invariance->invariant](std::int64_t cell) { return set.test(cell); }),
         safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
         beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
-        inputs_(ground_.spec, posts_, members()),
-        progress_(ground_.spec, posts_, [this](std::int64_t y) { return arrival(y); }),
+        inputs_(context_.spec, posts_, members()),
+        progress_(context_.spec, posts_, [this](std::int64_t y) { return arrival(y); }),
         steps_(sets, posts_, inputs_, real_) {
     if (sets.silence_of == nullptr) return;
-    silent_.emplace(ground_.spec, SilentInputs::Part::actions, sets.partition->classes, posts_);
+    silent_.emplace(context_.spec, SilentInputs::Part::actions, sets.partition->classes, posts_);
     if (sets.lost != nullptr)
-      afterwards_.emplace(ground_.spec, SilentInputs::Part::then, sets.partition->classes, posts_);
+      afterwards_.emplace(context_.spec, SilentInputs::Part::then, sets.partition->classes, posts_);
   }
 
  private:
@@ -75,9 +75,9 @@ class EscapeFinder : public EscapeRun {
   AdmissibleInputs::Sets members() {
     AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
     if (tubes_.beyond != nullptr) sets.safe_beyond = [this] { return &beyond_; };
-    if (ground_.listed) {
+    if (context_.listed) {
       sets.listed = [this](std::int64_t cell, std::int64_t u) {
-        return ground_.listed->pairs.test(steps_.number_of(cell), u);
+        return context_.listed->pairs.test(steps_.number_of(cell), u);
       };
     }
     return sets;
@@ -108,7 +108,7 @@ class EscapeFinder : public EscapeRun {
       path_.end = EscapeEnd::arrived;
       return false;
     }
-    const bool is_given = ground_.spec.controller.synthesis == Synthesis::given;
+    const bool is_given = context_.spec.controller.synthesis == Synthesis::given;
     std::optional<std::pair<std::int32_t, std::int64_t>> best;  // (worst arrival, joint input)
     for (const std::int64_t u : inputs_.of(cell)) {
       const std::int32_t own = progress_.worst(cell, u);
@@ -283,7 +283,7 @@ std::int32_t follow_escape(const EscapeSets& sets, std::int64_t cell, const Star
   std::optional<EscapePhase> first;
   EscapeSearch::Choices choices;
   std::size_t next = 0;
-  const std::int64_t inputs = sets.ground->abstraction->inputs.count();
+  const std::int64_t inputs = sets.context->abstraction->inputs.count();
   const std::int64_t most = std::clamp<std::int64_t>(1'000'000 / inputs, 20, 1000);
   for (std::int32_t steps = 1; steps <= most; ++steps) {
     if (next == choices.size()) {

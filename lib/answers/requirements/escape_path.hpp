@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "answers/analysis_context.hpp"
 #include "answers/goal/answer.hpp"
-#include "answers/ground.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/one_cell/cell_posts.hpp"
 #include "answers/requirements/result_requirement.hpp"
@@ -29,7 +29,7 @@ struct EscapePath {
 
 /// The inputs to find escapes.
 struct EscapeSets {
-  const Ground* ground = nullptr;
+  const AnalysisContext* context = nullptr;
   const Invariance* invariance = nullptr;
   /// The classes of the partition, and its DelayLayers::layers_of. Used in K alone; may be missing if no path
   /// starts in K.

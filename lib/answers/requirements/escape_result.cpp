@@ -7,13 +7,13 @@ namespace {
 
 /// Writes an escape, sample by sample and step by step, to a result.
 struct EscapeWriter {
-  const Ground& ground;
+  const AnalysisContext& context;
   const CellRequirement& asked;
   const std::vector<std::int64_t>& number_stride;
   ResultPath path = {};
 
   void add_sample(std::int64_t cell) {
-    const UniformGrid& grid = ground.abstraction->grid;
+    const UniformGrid& grid = context.abstraction->grid;
     std::int64_t number = 0;
     std::vector<double> state(grid.size());
     for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -33,7 +33,7 @@ struct EscapeWriter {
   }
 
   void add_step(std::int64_t u) {
-    const InputSpace& inputs = ground.abstraction->inputs;
+    const InputSpace& inputs = context.abstraction->inputs;
     for (std::size_t i = 0; i < inputs.size(); ++i)
       path.input.push_back(nearest_double(inputs[i].values[static_cast<std::size_t>(inputs.index(u, i))]));
   }
@@ -41,15 +41,15 @@ struct EscapeWriter {
 
 }  // namespace
 
-ResultPath result_of(const EscapePath& found, const Ground& ground, const CellRequirement& asked,
+ResultPath result_of(const EscapePath& found, const AnalysisContext& context, const CellRequirement& asked,
                      const std::vector<std::int64_t>& number_stride) {
-  EscapeWriter writer{ground, asked, number_stride};
+  EscapeWriter writer{context, asked, number_stride};
   writer.path.phase = found.phases;
   writer.path.end = found.end;
   for (const std::int64_t x : found.cells) writer.add_sample(x);
   for (const std::int64_t u : found.joint_inputs) writer.add_step(u);
   for (const DomainSide& side : found.sides) {
-    const ResultSide named{.state = ground.abstraction->grid.state(side.dimension), .above = side.above};
+    const ResultSide named{.state = context.abstraction->grid.state(side.dimension), .above = side.above};
     if (!writer.path.left_side || named.state < writer.path.left_side->state) writer.path.left_side = named;
   }
   return std::move(writer.path);

@@ -7,11 +7,11 @@ namespace coordreq {
 
 EscapeRun::EscapeRun(const EscapeSets& sets)
     : sets_(sets),
-      ground_(*sets.ground),
+      context_(*sets.context),
       collision_time_(sets.invariance->collision_time),
-      tubes_(ground_.tubes()),
-      posts_(*ground_.abstraction),
-      real_(ground_.spec, *ground_.abstraction) {}
+      tubes_(context_.tubes()),
+      posts_(*context_.abstraction),
+      real_(context_.spec, *context_.abstraction) {}
 
 void EscapeRun::begin_at(std::int64_t cell, const std::optional<std::vector<Rational>>& start) {
   if (start) {
@@ -98,7 +98,7 @@ bool EscapeRun::step_and_look() {
 
 /// Takes the step from the last cell, which the owner of the cell finds for all processes.
 bool EscapeRun::step_of_owner() {
-  const RowShare* const share = ground_.shared_rows();
+  const RowShare* const share = context_.shared_rows();
   if (share == nullptr) return step_and_look();
   Ranks& ranks = share->ranks();
   const int owner = share->owner(path_.cells.back() / posts_.grid().row_length());

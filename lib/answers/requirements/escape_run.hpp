@@ -59,7 +59,7 @@ class EscapeRun {
   void note_more(bool has_more) { has_more_ = has_more; }
 
   const EscapeSets& sets_;
-  const Ground& ground_;
+  const AnalysisContext& context_;
   const LevelMap& collision_time_;
   TubeSets tubes_;
   CellPosts posts_;

@@ -33,7 +33,7 @@ class EscapeSteps {
 
   /// @pre unchecked: all outlive this object.
   EscapeSteps(const EscapeSets& sets, CellPosts& posts, AdmissibleInputs& inputs, RealRun& real)
-      : sets_(sets), posts_(posts), inputs_(inputs), real_(real), tubes_(sets.ground->tubes()) {}
+      : sets_(sets), posts_(posts), inputs_(inputs), real_(real), tubes_(sets.context->tubes()) {}
 
   /// The level of a cell, INT64_MAX if it is never lost.
   [[nodiscard]] static std::int64_t level_of(const LevelMap& levels, std::int64_t cell);

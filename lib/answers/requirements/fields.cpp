@@ -207,7 +207,7 @@ void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, Field
   // A requirement about risk has no delay: 0.
   add_of_each<std::int32_t>(values, requirements, "least_delay", ElementType::int32,
                             [](R r) { return r.is_risk ? 0 : r.least_delay; });
-  if (answers.ground.spec.risk) {
+  if (answers.context.spec.risk) {
     add_of_each<double>(values, requirements, "risk", ElementType::float64,
                         [](R r) { return r.is_risk ? probability_of(r.least_delay) : 0.0; });
   }

@@ -25,20 +25,20 @@ class Judge {
  public:
   Judge(const Answers& answers, ThreadTeam& team)
       : answers_(answers),
-        ground_(answers.ground),
+        context_(answers.context),
         controller_(answers.get<Controller>()),
         team_(team),
-        grid_(make_grid(ground_.spec)) {
-    const UniformGrid& engine_grid = ground_.abstraction->grid;
+        grid_(make_grid(context_.spec)) {
+    const UniformGrid& engine_grid = context_.abstraction->grid;
     for (std::size_t d = 0; d < engine_grid.size(); ++d)
       number_stride_.push_back(grid_.stride(engine_grid.state(d)));
   }
 
   ResultRequirement judge(std::size_t r) {
-    const RequirementSpec& requirement = ground_.spec.requirements[r];
+    const RequirementSpec& requirement = context_.spec.requirements[r];
     asked_ = ask(requirement);
-    const UniformGrid& grid = ground_.abstraction->grid;
-    const CellSet region = cells_of_region(requirement.where, grid, team_, ground_.shared_rows());
+    const UniformGrid& grid = context_.abstraction->grid;
+    const CellSet region = cells_of_region(requirement.where, grid, team_, context_.shared_rows());
     const CellVerdict verdict = judge_cells(region, grid, asked_, number_stride_, team_);
     ResultRequirement result{.name = requirement.name,
                              .cells = static_cast<std::uint64_t>(verdict.cells),
@@ -84,9 +84,9 @@ class Judge {
       EscapePath alone;
       alone.cells = {cell};
       alone.end = EscapeEnd::too_risky;
-      return result_of(alone, ground_, asked_, number_stride_);
+      return result_of(alone, context_, asked_, number_stride_);
     }
-    EscapeSets sets{.ground = &ground_,
+    EscapeSets sets{.context = &context_,
                     .invariance = &answers_.get<Invariance>(),
                     .kind = requirement.kind,
                     .number_stride = number_stride_};
@@ -95,21 +95,21 @@ class Judge {
       sets.goal = answers_.find<Goal>();
     if (requirement.partition) {
       const auto p = static_cast<std::size_t>(*requirement.partition);
-      sets.classes =
-          input_classes(ground_.spec, ground_.abstraction->inputs, ground_.spec.coordination.partitions[p]);
+      sets.classes = input_classes(context_.spec, context_.abstraction->inputs,
+                                   context_.spec.coordination.partitions[p]);
       sets.layers_of = &answers_.get<PartitionLayers>().partitions[p].layers_of;
       sets.approach_of = &asked_.layers->layers_of;
       if (requirement.kind == RequirementKind::min_silence) {
-        sets.partition = &ground_.spec.coordination.partitions[p];
+        sets.partition = &context_.spec.coordination.partitions[p];
         sets.silence_of = &asked_.layers->layers_of;
-        if (ground_.spec.silence->has_then()) sets.lost = &answers_.get<Silence>().lost;
+        if (context_.spec.silence->has_then()) sets.lost = &answers_.get<Silence>().lost;
       }
       if (requirement.kind == RequirementKind::min_blind_delay) {
         sets.blind_delay_of = &asked_.layers->layers_of;
         sets.blind_countdown_of = &blind_layers(answers_, p).layers_of;
       }
     }
-    ResultPath path = result_of(find_escape(sets, cell), ground_, asked_, number_stride_);
+    ResultPath path = result_of(find_escape(sets, cell), context_, asked_, number_stride_);
     if (is_followed(requirement.kind, path)) path.seen = follow_escape(sets, cell);
     return path;
   }
@@ -122,7 +122,7 @@ class Judge {
   }
 
   const Answers& answers_;
-  const Ground& ground_;
+  const AnalysisContext& context_;
   const Controller& controller_;
   ThreadTeam& team_;
   UniformGrid grid_;                         ///< the spec's
@@ -144,7 +144,7 @@ void check_regions(const ProblemSpec& spec, ThreadTeam& team) {
 std::vector<ResultRequirement> judge_requirements(const Answers& answers, ThreadTeam& team) {
   Judge judge(answers, team);
   std::vector<ResultRequirement> result;
-  for (std::size_t r = 0; r < answers.ground.spec.requirements.size(); ++r) result.push_back(judge.judge(r));
+  for (std::size_t r = 0; r < answers.context.spec.requirements.size(); ++r) result.push_back(judge.judge(r));
   return result;
 }
 

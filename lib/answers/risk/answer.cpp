@@ -35,15 +35,15 @@ bool are_possible(const RiskRows& risks, const CellSet& invariant, const RowShar
 }
 
 /// Loads the state after some steps; after the last one there is a rate, too.
-void load_state(Archive& archive, const Ground& ground, const CellSet& invariant, RiskState& state,
+void load_state(Archive& archive, const AnalysisContext& context, const CellSet& invariant, RiskState& state,
                 double& rate) {
   archive.number(state.steps);
   archive.number(rate);
-  archive.expect(state.steps >= 0 && state.steps <= ground.spec.risk->horizon, "there are too many steps");
+  archive.expect(state.steps >= 0 && state.steps <= context.spec.risk->horizon, "there are too many steps");
   archive.expect(rate >= 0 && rate <= 1, "a rate is no probability");
   for (RiskRows& risks : state.risks) {
-    serialise_rows(archive, ground.shared_rows(), rows_of(risks));
-    archive.expect(are_possible(risks, invariant, ground.shared_rows()),
+    serialise_rows(archive, context.shared_rows(), rows_of(risks));
+    archive.expect(are_possible(risks, invariant, context.shared_rows()),
                    "a cell has a risk that it cannot have");
   }
 }
@@ -59,7 +59,7 @@ void save_state(Archive& archive, const RowShare* share, std::int64_t steps, dou
 class SilentModes {
  public:
   SilentModes(const Answers& answers, ThreadTeam& team) {
-    const ProblemSpec& spec = answers.ground.spec;
+    const ProblemSpec& spec = answers.context.spec;
     for (const PartitionSpec* const partition : network_partitions(*spec.network)) {
       if (spec.silence && partition->classes.size() > 1) {
         actions_.emplace_back(answers, AgentRules{spec.silence->actions, "actions"}, partition->classes,
@@ -78,7 +78,7 @@ class SilentModes {
 };
 
 RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected, const SilentModes& silent) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   NetworkProblem network = network_problem(answers);
   RiskProblem problem{.controller = network.controller,
                       .invariant = network.invariant,
@@ -87,23 +87,23 @@ RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected, 
                       .silent = silent.projections(),
                       .partition_of = {},
                       .expected = &expected,
-                      .horizon = ground.spec.risk->horizon,
-                      .is_safest = ground.spec.risk->is_safest};
+                      .horizon = context.spec.risk->horizon,
+                      .is_safest = context.spec.risk->is_safest};
   for (const NetworkMode& mode : network.modes) problem.partition_of.push_back(mode.partition);
   return problem;
 }
 
 void find_risks(Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
-  const RowShare* const share = ground.shared_rows();
+  const AnalysisContext& context = answers.context;
+  const RowShare* const share = context.shared_rows();
   const CellSet& invariant = answers.get<Invariance>().invariant;
   RiskAnswer& answer = answers.add(RiskAnswer{});
   Risk& result = answer.risk;
   RiskState state;
   double rate = 0;
   const auto load = [&](Archive& archive) {
-    state.risks = first_risks(invariant, ground.spec.network->modes.size(), share);
-    load_state(archive, ground, invariant, state, rate);
+    state.risks = first_risks(invariant, context.spec.network->modes.size(), share);
+    load_state(archive, context, invariant, state, rate);
   };
   const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
   if (kept == StageStore::Kept::finished) {
@@ -114,14 +114,14 @@ void find_risks(Answers& answers, const StageWork& work) {
     const SaveState save = [&steps, share](Archive& archive, std::span<const NumberRows> rows) {
       save_state(archive, share, steps, 0, rows);
     };
-    const auto step = step_of(work, *ground.engine, save);
+    const auto step = step_of(work, *context.engine, save);
     const RiskWatch watch{.step =
                               [&](const WaveStep& own, std::int64_t done) {
                                 steps = done;
                                 step(own);
                               },
                           .resumed = kept == StageStore::Kept::unfinished ? &state : nullptr};
-    const ExpectedRisks expected(*ground.spec.network);
+    const ExpectedRisks expected(*context.spec.network);
     const SilentModes silent(answers, work.team);
     result = find_risk(risk_problem(answers, expected, silent), watch, work.team);
   }
@@ -132,7 +132,7 @@ void find_risks(Answers& answers, const StageWork& work) {
     const Risk& risk = answers.get<RiskAnswer>().risk;
     std::vector<NumberRows> rows;
     for (const RiskRows& own : risk.risks) rows.push_back(rows_of(own));
-    save_state(archive, answers.ground.shared_rows(), answers.ground.spec.risk->horizon, risk.rate, rows);
+    save_state(archive, answers.context.shared_rows(), answers.context.spec.risk->horizon, risk.rate, rows);
   });
 }
 
@@ -163,7 +163,7 @@ std::vector<Stage> risk_stages(const ProblemSpec& spec) {
 void summarise_risk(const Answers& answers, Json& summary, Json& work) {
   const auto* const risk = answers.find<RiskAnswer>();
   if (risk == nullptr) return;
-  summary["risk"] = risk_json(answers.ground.spec, *risk);
+  summary["risk"] = risk_json(answers.context.spec, *risk);
   work["risk"] = work_json(risk->risk.counts);
 }
 

@@ -102,17 +102,17 @@ std::vector<Ranked> rank_all(const std::vector<Outgoing>& outgoing,
 /// One more step at single cells. One object a thread.
 class RiskStep {
  public:
-  explicit RiskStep(const CheckGround& ground) {
-    for (const NetworkModeSpec& mode : ground.spec->network->modes) {
-      is_least_.push_back(ground.spec->risk->is_safest && mode.partition.classes.size() == 1);
+  explicit RiskStep(const CheckContext& context) {
+    for (const NetworkModeSpec& mode : context.spec->network->modes) {
+      is_least_.push_back(context.spec->risk->is_safest && mode.partition.classes.size() == 1);
       const auto known = std::find(partitions_.begin(), partitions_.end(), mode.partition.classes);
       partition_of_.push_back(static_cast<std::size_t>(known - partitions_.begin()));
       if (known != partitions_.end()) continue;
       partitions_.push_back(mode.partition.classes);
-      independent_.emplace_back(ground, mode.partition.classes);
+      independent_.emplace_back(context, mode.partition.classes);
       std::optional<RuledChoices>& told = told_.emplace_back();
-      if (ground.spec->silence && mode.partition.classes.size() > 1)
-        told.emplace(ground, ground.spec->silence->actions, "actions", mode.partition.classes);
+      if (context.spec->silence && mode.partition.classes.size() > 1)
+        told.emplace(context, context.spec->silence->actions, "actions", mode.partition.classes);
     }
     choices_.resize(partitions_.size());
   }
@@ -156,10 +156,10 @@ class RiskStep {
 
 /// Data that all threads read.
 struct RiskClaims {
-  explicit RiskClaims(const CheckGround& ground)
-      : spec(*ground.spec),
-        risks(ground.claims->at(kRisk).reals),
-        rate(ground.claims->number(kRisk, "rate")),
+  explicit RiskClaims(const CheckContext& context)
+      : spec(*context.spec),
+        risks(context.claims->at(kRisk).reals),
+        rate(context.claims->number(kRisk, "rate")),
         outgoing(outgoing_of(*spec.network)),
         after(rank_all(outgoing, risks)) {
     std::size_t most = 0;
@@ -179,17 +179,17 @@ struct RiskClaims {
 /// A tally that names what is wrong.
 class RiskTally : public Tally {
  public:
-  RiskTally(const CheckGround& ground, const std::string& check) : Tally(check), ground_(ground) {}
+  RiskTally(const CheckContext& context, const std::string& check) : Tally(check), context_(context) {}
 
   void complain(const CheckedCell& cell, std::size_t mode, const std::string& what) {
-    const auto modes = static_cast<std::int64_t>(ground_.spec->network->modes.size());
+    const auto modes = static_cast<std::int64_t>(context_.spec->network->modes.size());
     add_wrong(cell.number() * modes + static_cast<std::int64_t>(mode), [&] {
-      return fmt::format("{}, mode {}: {}", cell.place(), ground_.spec->network->modes[mode].name, what);
+      return fmt::format("{}, mode {}: {}", cell.place(), context_.spec->network->modes[mode].name, what);
     });
   }
   /// Counts a claim as open if posts, and so risks, may be others than those of the analysis; else as wrong.
   void doubt(const CheckedCell& cell, std::size_t mode, const std::string& what) {
-    if (ground_.sound_only()) {
+    if (context_.sound_only()) {
       add_unproven();
     } else {
       complain(cell, mode, what);
@@ -197,13 +197,13 @@ class RiskTally : public Tally {
   }
 
  private:
-  const CheckGround& ground_;
+  const CheckContext& context_;
 };
 
 class RiskChecker : public CellChecker {
  public:
-  RiskChecker(const CheckGround& ground, const RiskClaims& claims, RiskTally& tally)
-      : claims_(claims), tally_(tally), step_(ground) {}
+  RiskChecker(const CheckContext& context, const RiskClaims& claims, RiskTally& tally)
+      : claims_(claims), tally_(tally), step_(context) {}
 
   void check(CheckedCell& cell) override {
     if (cell.is_invariant()) step_.go_to(cell);
@@ -240,20 +240,20 @@ class RiskChecker : public CellChecker {
 
 class RiskCheck : public AnswerCheck {
  public:
-  explicit RiskCheck(const CheckGround& ground)
+  explicit RiskCheck(const CheckContext& context)
       : AnswerCheck(CheckSection::modes),
-        ground_(ground),
-        claims_(ground),
-        tally_(ground, "risk"),
-        full_tally_(ground, "risk within the horizon") {}
+        context_(context),
+        claims_(context),
+        tally_(context, "risk"),
+        full_tally_(context, "risk within the horizon") {}
 
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<RiskChecker>(ground_, claims_, tally_);
+    return std::make_unique<RiskChecker>(context_, claims_, tally_);
   }
 
   /// Computes V_N in N passes, and compares it.
   void check_all(ThreadTeam& team) override {
-    if (!ground_.is_full) return;
+    if (!context_.is_full) return;
     std::vector<std::vector<double>> risks = first_risks();
     for (std::int64_t n = 0; n < claims_.spec.risk->horizon; ++n) {
       std::vector<std::vector<double>> next = risks;
@@ -272,15 +272,15 @@ class RiskCheck : public AnswerCheck {
 
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tally_.finding()};
-    if (ground_.is_full) result.push_back(full_tally_.finding());
+    if (context_.is_full) result.push_back(full_tally_.finding());
     return result;
   }
 
  private:
   [[nodiscard]] std::vector<std::vector<double>> first_risks() const {
     std::vector<double> first;
-    const std::vector<std::uint8_t>& safe = ground_.claims->members("/safe");
-    const std::vector<std::uint8_t>& invariant = ground_.claims->members("/invariant");
+    const std::vector<std::uint8_t>& safe = context_.claims->members("/safe");
+    const std::vector<std::uint8_t>& invariant = context_.claims->members("/invariant");
     for (std::size_t x = 0; x < invariant.size(); ++x)
       first.push_back(safe[x] != 0 && invariant[x] != 0 ? 0 : 1);
     return std::vector<std::vector<double>>(claims_.risks.size(), first);
@@ -288,9 +288,9 @@ class RiskCheck : public AnswerCheck {
 
   template <class Body>
   void for_each_cell(ThreadTeam& team, const Body& body) {
-    team.for_each(ground_.grid->cells(), 512, [&](ThreadTeam::Range range, int) {
-      CheckedCell cell(ground_);
-      RiskStep step(ground_);
+    team.for_each(context_.grid->cells(), 512, [&](ThreadTeam::Range range, int) {
+      CheckedCell cell(context_);
+      RiskStep step(context_);
       for (std::int64_t x = range.begin; x < range.end; ++x) {
         cell.go_to(x);
         body(cell, step);
@@ -312,7 +312,7 @@ class RiskCheck : public AnswerCheck {
     }
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   RiskClaims claims_;
   RiskTally tally_;
   RiskTally full_tally_;
@@ -320,9 +320,9 @@ class RiskCheck : public AnswerCheck {
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_risk(const CheckGround& ground) {
-  if (!ground.spec->risk) return nullptr;
-  return std::make_unique<RiskCheck>(ground);
+std::unique_ptr<AnswerCheck> check_risk(const CheckContext& context) {
+  if (!context.spec->risk) return nullptr;
+  return std::make_unique<RiskCheck>(context);
 }
 
 double risk_check_memory(const ProblemSpec& spec) {

@@ -55,7 +55,7 @@ Fields risk_fields(const ProblemSpec& spec) {
 void fill_risk_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const risk = answers.find<RiskAnswer>();
   if (risk == nullptr) return;
-  values.entries[paths::kRisk] = {.array = risk_array(risk->risk, *answers.ground.order),
+  values.entries[paths::kRisk] = {.array = risk_array(risk->risk, *answers.context.order),
                                   .attributes = {{"rate", risk->risk.rate}}};
 }
 

@@ -9,10 +9,10 @@ namespace {
 
 class SafestPolicy : public CellPolicy {
  public:
-  explicit SafestPolicy(const PolicyGround& ground)
-      : posts_(*ground.posts),
-        after_(ground.values(paths::kRiskAfter)),
-        most_(ground.values(paths::kRiskMost)) {}
+  explicit SafestPolicy(const PolicyContext& context)
+      : posts_(*context.posts),
+        after_(context.values(paths::kRiskAfter)),
+        most_(context.values(paths::kRiskMost)) {}
 
   bool holds(std::int64_t /*cell*/) override { return true; }
   const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
@@ -56,8 +56,8 @@ class SafestPolicy : public CellPolicy {
 AnswerPolicy safest_policy(const std::string& delay) {
   return {.words = "safest actions",
           .delay = delay,
-          .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
-            return std::make_unique<SafestPolicy>(ground);
+          .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
+            return std::make_unique<SafestPolicy>(context);
           }};
 }
 

@@ -29,74 +29,74 @@ std::size_t count_of_answers(const ProblemSpec& spec) {
 
 Silence& silence_in(Answers& answers) {
   if (answers.find<Silence>() == nullptr)
-    answers.add(Silence{.partitions = std::vector<SilencePartition>(count_of_answers(answers.ground.spec))});
+    answers.add(Silence{.partitions = std::vector<SilencePartition>(count_of_answers(answers.context.spec))});
   return answers.get<Silence>();
 }
 
 /// The cells of a set in which the task goes on: all but those of a goal that ends it. @param part storage
 /// for them
-const CellSet& going_on(const Ground& ground, const CellSet& set, CellSet& part) {
-  if (!ground.over) return set;
-  part = part_of(set, *ground.over, false, ground.shared_rows());
+const CellSet& going_on(const AnalysisContext& context, const CellSet& set, CellSet& part) {
+  if (!context.over) return set;
+  part = part_of(set, *context.over, false, context.shared_rows());
   return part;
 }
 
 /// Finds K' = lim SPRE_S^i(X) for the product of the actions that `then` leaves to each agent: by the
 /// operator of the layers, from S on, without a limit.
 void find_set(Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
+  const AnalysisContext& context = answers.context;
   Silence& silence = silence_in(answers);
-  const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
-  find_or_take_levels(work, *ground.engine, bounds, silence.lost, [&](const WaveWatch& watch) {
+  const LevelBounds bounds{&context.safe, context.engine->grid().points() + 1};
+  find_or_take_levels(work, *context.engine, bounds, silence.lost, [&](const WaveWatch& watch) {
     work.enter_part("projections");
     CellSet part;
-    const SilentActions actions(answers, {ground.spec.silence->then, "then"}, agents_alone(ground.spec),
-                                going_on(ground, ground.safe, part), work.team);
+    const SilentActions actions(answers, {context.spec.silence->then, "then"}, agents_alone(context.spec),
+                                going_on(context, context.safe, part), work.team);
     work.enter_part("");
-    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, ground.safe, actions.projections, {},
-                                          std::nullopt, watch, work.team, ground.over_or_null());
+    DelayLayers found = find_delay_layers(*context.engine, *context.hull, context.safe, actions.projections,
+                                          {}, std::nullopt, watch, work.team, context.over_or_null());
     silence.counts = found.counts;
     return std::move(found.layers_of);
   });
   silence.set = silence.lost.top_cells(work.team);
-  silence.cells = ground.count(silence.set);
+  silence.cells = context.count(silence.set);
 }
 
-std::vector<std::int64_t> sums(const Ground& ground, const SilentActions& actions) {
+std::vector<std::int64_t> sums(const AnalysisContext& context, const SilentActions& actions) {
   std::vector<std::int64_t> result;
   for (const std::atomic<std::int64_t>& own : actions.lacking)
-    result.push_back(sum_of_all(ground.shared_rows(), own));
+    result.push_back(sum_of_all(context.shared_rows(), own));
   return result;
 }
 
 /// Finds the silence of a partition. If all agents have rules it is the same for every partition, and found
 /// with each agent by itself.
 void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
-  const Ground& ground = answers.ground;
-  const ProblemSpec& spec = ground.spec;
+  const AnalysisContext& context = answers.context;
+  const ProblemSpec& spec = context.spec;
   const CoordinationSpec& coordination = spec.coordination;
   SilencePartition& own = silence_in(answers).partitions[p];
   const CellSet& set = silence_set(answers);
   CellSet part;
-  const CellSet& asked = going_on(ground, set, part);
+  const CellSet& asked = going_on(context, set, part);
   const auto classes =
       all_have_rules(*spec.silence) ? agents_alone(spec) : coordination.partitions[p].classes;
   const AgentRules rules{spec.silence->actions, "actions"};
-  const std::int64_t steps = ground.engine->grid().points();
+  const std::int64_t steps = context.engine->grid().points();
   const LevelBounds bounds{&set, coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
-  find_or_take_levels(work, *ground.engine, bounds, own.layers.layers_of, [&](const WaveWatch& watch) {
+  find_or_take_levels(work, *context.engine, bounds, own.layers.layers_of, [&](const WaveWatch& watch) {
     work.enter_part("projections");
     const SilentActions actions(answers, rules, classes, asked, work.team);
     work.enter_part("");
-    own.lacking = sums(ground, actions);
-    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, set, actions.projections, {},
-                                          coordination.max_delay, watch, work.team, ground.over_or_null());
+    own.lacking = sums(context, actions);
+    DelayLayers found = find_delay_layers(*context.engine, *context.hull, set, actions.projections, {},
+                                          coordination.max_delay, watch, work.team, context.over_or_null());
     own.layers.counts = found.counts;
     return std::move(found.layers_of);
   });
   // Kept levels do not have these counts.
   if (own.lacking.empty())
-    own.lacking = sums(ground, SilentActions(answers, rules, classes, asked, work.team));
+    own.lacking = sums(context, SilentActions(answers, rules, classes, asked, work.team));
   follow_from_levels(coordination.max_delay, work.team, own.layers);
 }
 
@@ -119,7 +119,7 @@ std::vector<Stage> silence_stages(const ProblemSpec& spec) {
 void summarise_silence(const Answers& answers, Json& summary, Json& work) {
   const auto* const silence = answers.find<Silence>();
   if (silence == nullptr) return;
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   if (spec.silence->has_then()) {
     summary["silence_set"] = silence->cells;
     work["silence set"] = work_json(silence->counts);
@@ -140,7 +140,7 @@ void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info
 Warnings advise_on_silence(const Answers& answers) {
   const auto* const silence = answers.find<Silence>();
   if (silence == nullptr) return {};
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   Warnings warnings;
   for (std::size_t p = 0; p < silence->partitions.size(); ++p) {
     const std::vector<std::int64_t>& lacking = silence->partitions[p].lacking;
@@ -190,8 +190,8 @@ const SilencePartition& silence_of(const Answers& answers, std::size_t p) {
 }
 
 const CellSet& silence_set(const Answers& answers) {
-  return answers.ground.spec.silence->has_then() ? answers.get<Silence>().set
-                                                 : answers.get<Invariance>().invariant;
+  return answers.context.spec.silence->has_then() ? answers.get<Silence>().set
+                                                  : answers.get<Invariance>().invariant;
 }
 
 }  // namespace coordreq

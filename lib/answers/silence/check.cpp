@@ -26,10 +26,10 @@ std::vector<std::vector<std::int32_t>> single_agents(const ProblemSpec& spec) {
 
 /// Data of one partition that all threads share.
 struct PartitionOfSilence {
-  PartitionOfSilence(const CheckGround& ground, std::size_t p)
-      : claims(*ground.spec, *ground.claims, p, silence_layers_meant()),
+  PartitionOfSilence(const CheckContext& context, std::size_t p)
+      : claims(*context.spec, *context.claims, p, silence_layers_meant()),
         silence("silence " + claims.partition.name) {
-    if (claims.fixed_point_index < 0) most = ground.spec->coordination.max_delay;
+    if (claims.fixed_point_index < 0) most = context.spec->coordination.max_delay;
   }
 
   PartitionClaims claims;
@@ -39,9 +39,9 @@ struct PartitionOfSilence {
 
 /// The check of K' that all threads share.
 struct SetOfSilence {
-  explicit SetOfSilence(const CheckGround& ground)
-      : has_then(ground.spec->silence->has_then()),
-        members(ground.claims->members(has_then ? "/silence_set" : "/invariant")) {}
+  explicit SetOfSilence(const CheckContext& context)
+      : has_then(context.spec->silence->has_then()),
+        members(context.claims->members(has_then ? "/silence_set" : "/invariant")) {}
 
   bool has_then;
   const std::vector<std::uint8_t>& members;
@@ -60,12 +60,12 @@ bool stays(CheckedCell& cell, RuledChoices& then, const std::vector<std::uint8_t
 
 class SilenceChecker : public CellChecker {
  public:
-  SilenceChecker(const CheckGround& ground, SetOfSilence& set, std::deque<PartitionOfSilence>& partitions)
-      : ground_(ground), set_(set), partitions_(partitions) {
-    const SilenceSpec& silence = *ground.spec->silence;
+  SilenceChecker(const CheckContext& context, SetOfSilence& set, std::deque<PartitionOfSilence>& partitions)
+      : context_(context), set_(set), partitions_(partitions) {
+    const SilenceSpec& silence = *context.spec->silence;
     for (const PartitionOfSilence& own : partitions)
-      actions_.emplace_back(ground, silence.actions, "actions", own.claims.partition.classes);
-    if (silence.has_then()) then_.emplace(ground, silence.then, "then", single_agents(*ground.spec));
+      actions_.emplace_back(context, silence.actions, "actions", own.claims.partition.classes);
+    if (silence.has_then()) then_.emplace(context, silence.then, "then", single_agents(*context.spec));
   }
 
   void check(CheckedCell& cell) override {
@@ -107,11 +107,11 @@ class SilenceChecker : public CellChecker {
   void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
     tally.add_checked(1);
     if (claimed == expected) return;
-    if (ground_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
+    if (context_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
     add_wrong_steps(tally, cell, claimed, expected);
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   SetOfSilence& set_;
   std::deque<PartitionOfSilence>& partitions_;
   std::deque<RuledChoices> actions_;  ///< [partition]
@@ -120,30 +120,30 @@ class SilenceChecker : public CellChecker {
 
 class SilenceCheck : public AnswerCheck {
  public:
-  explicit SilenceCheck(const CheckGround& ground)
-      : AnswerCheck(CheckSection::steps), ground_(ground), set_(ground) {
-    for (std::size_t p = 0; p < ground.spec->coordination.partitions.size(); ++p)
-      partitions_.emplace_back(ground, p);
+  explicit SilenceCheck(const CheckContext& context)
+      : AnswerCheck(CheckSection::steps), context_(context), set_(context) {
+    for (std::size_t p = 0; p < context.spec->coordination.partitions.size(); ++p)
+      partitions_.emplace_back(context, p);
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::vector<Finding> findings;
     std::size_t longest = 1;
     for (const PartitionOfSilence& own : partitions_)
-      findings.push_back(compare_layers(*ground_.spec, *ground_.claims, own.claims, longest));
+      findings.push_back(compare_layers(*context_.spec, *context_.claims, own.claims, longest));
     sizes.expect("length of /silence_layer", partitions_.front().claims.layer_sizes.size(), longest);
     if (set_.has_then) {
-      const std::vector<std::uint64_t>& cells = ground_.claims->at("/silence_set").cells;
+      const std::vector<std::uint64_t>& cells = context_.claims->at("/silence_set").cells;
       sizes.expect("cells of /silence_set", cells.empty() ? UINT64_MAX : cells.front(),
                    count_members(set_.members));
     }
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<SilenceChecker>(ground_, set_, partitions_);
+    return std::make_unique<SilenceChecker>(context_, set_, partitions_);
   }
   void check_all(ThreadTeam& team) override {
-    if (set_.has_then && set_.looked_at >= ground_.grid->cells()) check_greatest(team);
+    if (set_.has_then && set_.looked_at >= context_.grid->cells()) check_greatest(team);
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
@@ -156,7 +156,7 @@ class SilenceCheck : public AnswerCheck {
   /// Checks that no cell of S outside K' is in the limit: removes cells from which `then` leads out of the
   /// rest until there are none.
   void check_greatest(ThreadTeam& team) {
-    const std::vector<std::uint8_t>& safe = ground_.claims->members("/safe");
+    const std::vector<std::uint8_t>& safe = context_.claims->members("/safe");
     std::vector<std::uint8_t> left(safe.size());
     std::vector<std::int64_t> open;
     for (std::size_t x = 0; x < left.size(); ++x) {
@@ -169,11 +169,11 @@ class SilenceCheck : public AnswerCheck {
       std::erase_if(open, [&](std::int64_t x) { return left[at(x)] == 0; });
     }
     for (const std::int64_t x : open) {
-      if (ground_.sound_only()) {
+      if (context_.sound_only()) {
         set_.tally.add_unproven();
       } else {
         set_.tally.add_wrong(x, [&] {
-          return place_of(*ground_.grid, x) + ": expected in the set, what comes after keeps it";
+          return place_of(*context_.grid, x) + ": expected in the set, what comes after keeps it";
         });
       }
     }
@@ -186,8 +186,8 @@ class SilenceCheck : public AnswerCheck {
     std::vector<std::int64_t> result;
     std::mutex mutex;
     team.for_each(std::ssize(cells), 512, [&](ThreadTeam::Range range, int) {
-      CheckedCell cell(ground_);
-      RuledChoices then(ground_, ground_.spec->silence->then, "then", single_agents(*ground_.spec));
+      CheckedCell cell(context_);
+      RuledChoices then(context_, context_.spec->silence->then, "then", single_agents(*context_.spec));
       std::vector<std::int64_t> found;
       for (std::int64_t i = range.begin; i < range.end; ++i) {
         cell.go_to(cells[at(i)]);
@@ -199,16 +199,16 @@ class SilenceCheck : public AnswerCheck {
     return result;
   }
 
-  const CheckGround& ground_;
+  const CheckContext& context_;
   SetOfSilence set_;
   std::deque<PartitionOfSilence> partitions_;
 };
 
 }  // namespace
 
-std::unique_ptr<AnswerCheck> check_silence(const CheckGround& ground) {
-  if (!ground.spec->silence) return nullptr;
-  return std::make_unique<SilenceCheck>(ground);
+std::unique_ptr<AnswerCheck> check_silence(const CheckContext& context) {
+  if (!context.spec->silence) return nullptr;
+  return std::make_unique<SilenceCheck>(context);
 }
 
 double silence_check_memory(const ProblemSpec& spec) {

@@ -14,7 +14,7 @@ namespace coordreq {
 ///   such subset of S, if all posts are known;
 /// - F, whether max_delay stopped the iteration, and sizes of layers against the silence of the cells.
 /// Null if the spec does not say what silent agents do.
-[[nodiscard]] std::unique_ptr<AnswerCheck> check_silence(const CheckGround& ground);
+[[nodiscard]] std::unique_ptr<AnswerCheck> check_silence(const CheckContext& context);
 /// Bytes a cell that the check keeps.
 [[nodiscard]] double silence_check_memory(const ProblemSpec& spec);
 

@@ -60,9 +60,9 @@ Fields silence_fields(const ProblemSpec& spec) {
 void fill_silence_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const silence = answers.find<Silence>();
   if (silence == nullptr) return;
-  const ProblemSpec& spec = answers.ground.spec;
+  const ProblemSpec& spec = answers.context.spec;
   const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.ground.order;
+  const CellOrder& order = *answers.context.order;
   std::vector<const DelayLayers*> all;
   std::int64_t longest = 0;
   for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {

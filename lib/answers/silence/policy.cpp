@@ -11,8 +11,8 @@ namespace {
 
 class SilencePolicy : public CellPolicy {
  public:
-  SilencePolicy(const PolicyGround& ground, SilentInputs::Part part)
-      : inputs_(*ground.spec, part, ground.partition->classes, *ground.posts) {}
+  SilencePolicy(const PolicyContext& context, SilentInputs::Part part)
+      : inputs_(*context.spec, part, context.partition->classes, *context.posts) {}
 
   bool holds(std::int64_t /*cell*/) override { return true; }
   const Numbers& together(std::int64_t /*cell*/, const Numbers& admissible) override { return admissible; }
@@ -35,8 +35,8 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
            .delay = paths::kSilence,
            .is_on_request = true,
            .is_anywhere = true,
-           .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
-             return std::make_unique<SilencePolicy>(ground, SilentInputs::Part::actions);
+           .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
+             return std::make_unique<SilencePolicy>(context, SilentInputs::Part::actions);
            },
            .header = {.where = "while silent agents follow the rule",
                       .purpose = "Agents who follow the rule while they are silent.",
@@ -49,8 +49,8 @@ AnswerPolicy afterwards_policy() {
           .delay = paths::kSilence,
           .is_on_request = true,
           .is_anywhere = true,
-          .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
-            return std::make_unique<SilencePolicy>(ground, SilentInputs::Part::then);
+          .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
+            return std::make_unique<SilencePolicy>(context, SilentInputs::Part::then);
           }};
 }
 

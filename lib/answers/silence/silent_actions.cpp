@@ -15,29 +15,29 @@ namespace {
 using Classes = std::vector<std::vector<std::int32_t>>;
 using Tables = std::vector<std::optional<PairTable>>;
 
-Tables tables_of(const Ground& ground, const AgentRules& rules, ThreadTeam& team) {
+Tables tables_of(const AnalysisContext& context, const AgentRules& rules, ThreadTeam& team) {
   Tables tables(rules.conditions.size());
   for (std::size_t i = 0; i < tables.size(); ++i) {
     if (!rules.conditions[i]) continue;
     tables[i] = permitted_pairs({*rules.conditions[i], "the condition",
-                                 member_pointer("/silence/" + rules.key, ground.spec.agents[i].name)},
-                                ground.spec, *ground.abstraction, team, ground.shared_rows());
+                                 member_pointer("/silence/" + rules.key, context.spec.agents[i].name)},
+                                context.spec, *context.abstraction, team, context.shared_rows());
   }
   return tables;
 }
 
-std::vector<InputClass> inputs_of(const Ground& ground, const Classes& classes) {
+std::vector<InputClass> inputs_of(const AnalysisContext& context, const Classes& classes) {
   std::vector<InputClass> result;
   for (const std::vector<std::int32_t>& agents : classes)
-    result.push_back(class_of(ground.spec, ground.abstraction->inputs, agents));
+    result.push_back(class_of(context.spec, context.abstraction->inputs, agents));
   return result;
 }
 
 /// The sources of the engine, then the rules in the order of the agents.
-std::vector<ActionSource> sources_of(const Ground& ground, const Tables& tables) {
-  std::vector<ActionSource> sources = action_sources(*ground.engine);
+std::vector<ActionSource> sources_of(const AnalysisContext& context, const Tables& tables) {
+  std::vector<ActionSource> sources = action_sources(*context.engine);
   for (const std::optional<PairTable>& table : tables) {
-    if (table) sources.push_back(source_of(*table, ground.abstraction->inputs));
+    if (table) sources.push_back(source_of(*table, context.abstraction->inputs));
   }
   return sources;
 }
@@ -77,11 +77,11 @@ SilentRules rules_of(const AgentRules& rules, const Classes& classes, const Tabl
 
 SilentActions::SilentActions(const Answers& answers, const AgentRules& rules, const Classes& classes,
                              const CellSet& cells, ThreadTeam& team)
-    : tables(tables_of(answers.ground, rules, team)),
+    : tables(tables_of(answers.context, rules, team)),
       lacking(rules.conditions.size()),
-      grouping(*answers.ground.engine, inputs_of(answers.ground, classes), sources_of(answers.ground, tables),
-               team),
-      projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, team,
+      grouping(*answers.context.engine, inputs_of(answers.context, classes),
+               sources_of(answers.context, tables), team),
+      projections(answers.get<GoingOn>().controller, grouping, *answers.context.hull, team,
                   rules_of(rules, classes, tables, grouping.sources().size(), cells, lacking)) {}
 
 double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {

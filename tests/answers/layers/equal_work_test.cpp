@@ -36,7 +36,7 @@ TEST(EqualWork, IsNotWhereTheWidthOfARangeDiffers) {
 "safe": "x - 3*floor(x/3) <= 1 or y >= 3", "abstraction": {"safe": "center", "cells": "half_open"}})json",
                                      "widths");
   const FastAnalysis fast(spec, team);
-  EXPECT_TRUE(fast.answers->ground.tiles.has_value());
+  EXPECT_TRUE(fast.answers->context.tiles.has_value());
   EXPECT_EQ(fast.invariance.invariant.count(), 1215);
   expect_plain_times_and_delays(spec, fast);
 }

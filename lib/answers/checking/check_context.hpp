@@ -20,7 +20,7 @@ enum class PostsAre : std::uint8_t {
 };
 
 /// The data that all checks use. Posts are not there yet while sizes are compared.
-struct CheckGround {
+struct CheckContext {
   const ProblemSpec* spec = nullptr;
   const UniformGrid* grid = nullptr;
   const InputSpace* inputs = nullptr;

@@ -18,7 +18,7 @@ double entries_in_full(const Model& model, const TableShape& shape) {
 
 }  // namespace
 
-MemoryNeed ground_memory(const EngineSizes& sizes, int threads) {
+MemoryNeed context_memory(const EngineSizes& sizes, int threads) {
   const Model& model = sizes.model();
   const ProblemSpec& spec = model.spec();
   MemoryNeed need{.kept = sizes.set() + sizes.hull(),

@@ -1,4 +1,4 @@
-#include "answers/ground/fields.hpp"
+#include "answers/context/fields.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -71,11 +71,11 @@ ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t I
                        const std::shared_ptr<TableCache>& tables) {
   return {ElementType::int32,
           [&answers, state, end, tables](std::uint64_t begin, std::uint64_t count, void* out) {
-            const TransitionTable& own = answers.ground.abstraction->tables[state];
+            const TransitionTable& own = answers.context.abstraction->tables[state];
             const bool is_in_full = !own.shift && !own.is_sum();
             std::shared_ptr<const TransitionTable> written;
             if (!is_in_full)
-              written = tables->get(state, [&] { return written_out(*answers.ground.abstraction, state); });
+              written = tables->get(state, [&] { return written_out(*answers.context.abstraction, state); });
             const TransitionTable& table = is_in_full ? own : *written;
             const auto first = table.entries.begin() + (static_cast<std::int64_t>(begin) - table.before);
             std::transform(first, first + static_cast<std::ptrdiff_t>(count), static_cast<std::int32_t*>(out),
@@ -85,7 +85,7 @@ ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t I
 
 }  // namespace
 
-Fields ground_fields(const ProblemSpec& spec) {
+Fields context_fields(const ProblemSpec& spec) {
   Fields fields;
   for (const StateSpec& state : spec.states) fields.push_back(state_axis(state));
   for (const InputSpec& input : spec.inputs) fields.push_back(input_axis(input));
@@ -97,8 +97,8 @@ Fields ground_fields(const ProblemSpec& spec) {
   return fields;
 }
 
-void fill_ground_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
-  const ProblemSpec& spec = answers.ground.spec;
+void fill_context_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const ProblemSpec& spec = answers.context.spec;
   const auto table = std::make_shared<TableCache>();
   for (std::size_t i = 0; spec.output.abstraction && i < spec.states.size(); ++i) {
     const std::string group = "/abstraction/" + spec.states[i].name;

@@ -12,7 +12,7 @@
 namespace coordreq {
 
 /// The data from which an answer adds to the explanation of a delay.
-struct ExplainGround {
+struct ExplainContext {
   const ProblemSpec* spec = nullptr;
   const PartitionSpec* partition = nullptr;
   CellPosts* posts = nullptr;

@@ -1,4 +1,4 @@
-#include "answers/share_ground.hpp"
+#include "answers/share_context.hpp"
 
 #include <algorithm>
 
@@ -11,24 +11,25 @@ RowShare nothing_owned(Ranks& ranks) {
   return {ranks, std::vector<std::int64_t>(1 + static_cast<std::size_t>(ranks.count()), 0)};
 }
 
-void share_ground(Ground& ground, bool is_cut,
-                  const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
-  RowShare& share = *ground.share;
-  if (!is_cut) share = {*ground.ranks, cut_into_shares(ground.model, &*ground.engine, ground.ranks->count())};
+void share_context(AnalysisContext& context, bool is_cut,
+                   const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
+  RowShare& share = *context.share;
+  if (!is_cut)
+    share = {*context.ranks, cut_into_shares(context.model, &*context.engine, context.ranks->count())};
   find_safe({share.own()});
-  share.set_ghosts(ground.hull->rows_met(&ground.safe, share.own()));
+  share.set_ghosts(context.hull->rows_met(&context.safe, share.own()));
   find_safe(ghost_rows(share));
-  ground.engine->take_tube_sets();
+  context.engine->take_tube_sets();
 }
 
-std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
-  const UniformGrid& grid = ground.abstraction->grid;
+std::vector<RankRows> rows_of_ranks(const AnalysisContext& context, int ranks) {
+  const UniformGrid& grid = context.abstraction->grid;
   const CellSet unknown(grid.rows(), grid.row_length());
   TubeSets tubes;
-  if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
-  const RowEngine engine(*ground.abstraction, nullptr, tubes);
+  if (!context.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
+  const RowEngine engine(*context.abstraction, nullptr, tubes);
   const RowHull hull(engine);
-  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks);
+  const std::vector<std::int64_t> bounds = cut_into_shares(context.model, &engine, ranks);
   const std::vector<double> slices = bytes_of_slices(engine);
   std::vector<RankRows> result;
   for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
@@ -38,7 +39,7 @@ std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
     RankRows& rows = result.emplace_back(
         RankRows{own.end - own.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});
     for (std::size_t t = 0; t < slices.size(); ++t) {
-      if (ground.abstraction->tables[t].is_by_cells(grid.size()))
+      if (context.abstraction->tables[t].is_by_cells(grid.size()))
         rows.slices[t] *= static_cast<double>(rows.own) / static_cast<double>(grid.rows());
     }
   }

@@ -8,9 +8,9 @@
 
 namespace coordreq {
 
-/// "abstraction" and "safe set": Answers::ground.
+/// "abstraction" and "safe set": Answers::context.
 /// @throws SpecError for errors that show only when the system is built
-[[nodiscard]] std::vector<Stage> ground_stages(const ProblemSpec& spec);
-void summarise_ground(const Answers& answers, Json& summary, Json& work);
+[[nodiscard]] std::vector<Stage> context_stages(const ProblemSpec& spec);
+void summarise_context(const Answers& answers, Json& summary, Json& work);
 
 }  // namespace coordreq

@@ -8,9 +8,9 @@
 namespace coordreq {
 
 /// The axes of states, inputs and partitions; on request the finite abstraction.
-[[nodiscard]] Fields ground_fields(const ProblemSpec& spec);
+[[nodiscard]] Fields context_fields(const ProblemSpec& spec);
 
 /// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
-void fill_ground_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+void fill_context_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -1,11 +1,11 @@
-#include "answers/ground.hpp"
+#include "answers/analysis_context.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
-#include "answers/share_ground.hpp"
+#include "answers/share_context.hpp"
 #include "base/index.hpp"
 #include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
@@ -39,49 +39,49 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AbstractAgent>& agen
 
 /// The sets that a symmetry must keep: S, the cells of it that count as T, and S for tubes beyond limits, in
 /// rows held.
-std::vector<const CellSet*> safe_sets(const Ground& ground) {
-  std::vector<const CellSet*> sets{&ground.safe};
-  if (ground.over) sets.push_back(&*ground.over);
-  if (ground.beyond) sets.push_back(&*ground.beyond);
+std::vector<const CellSet*> safe_sets(const AnalysisContext& context) {
+  std::vector<const CellSet*> sets{&context.safe};
+  if (context.over) sets.push_back(&*context.over);
+  if (context.beyond) sets.push_back(&*context.beyond);
   return sets;
 }
 
 /// Agents that can be exchanged.
-std::vector<AbstractAgent> find_agents_alike(const Ground& ground) {
+std::vector<AbstractAgent> find_agents_alike(const AnalysisContext& context) {
   std::vector<std::vector<std::int32_t>> inputs;
-  for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
+  for (const InputClass& own : agent_classes(context.spec, context.abstraction->inputs))
     inputs.push_back(own.inputs());
-  const std::vector<AbstractAgent> all = abstract_agents(*ground.abstraction, inputs);
-  return find_like_agents(*ground.abstraction, all, safe_sets(ground));
+  const std::vector<AbstractAgent> all = abstract_agents(*context.abstraction, inputs);
+  return find_like_agents(*context.abstraction, all, safe_sets(context));
 }
 
 /// Adds the cells of G, of a goal that ends the task, in some rows where S is known.
-void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground& ground) {
-  const Abstraction& abstraction = *ground.abstraction;
-  CellSet& over = *ground.over;
-  add_cells_that_satisfy(*ground.spec.goal, ground.spec, abstraction.grid, abstraction.inputs, runs, team,
+void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, AnalysisContext& context) {
+  const Abstraction& abstraction = *context.abstraction;
+  CellSet& over = *context.over;
+  add_cells_that_satisfy(*context.spec.goal, context.spec, abstraction.grid, abstraction.inputs, runs, team,
                          over);
   for (const RowShare::Range run : runs) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
-      for (std::size_t w = 0; w < over.row(r).size(); ++w) over.row(r)[w] &= ground.safe.row(r)[w];
+      for (std::size_t w = 0; w < over.row(r).size(); ++w) over.row(r)[w] &= context.safe.row(r)[w];
     }
   }
 }
 
 }  // namespace
 
-TubeSets Ground::tubes() const {
+TubeSets AnalysisContext::tubes() const {
   REQUIRES(safe.rows() == abstraction->grid.rows());
   if (abstraction->tubes.empty()) return {};
   return {&safe, beyond ? &*beyond : nullptr};
 }
 
-std::int64_t Ground::count(const CellSet& set) const {
+std::int64_t AnalysisContext::count(const CellSet& set) const {
   const RowShare::Range own = own_rows(shared_rows(), set.rows());
   return sum_of_all(shared_rows(), set.count(own.begin, own.end));
 }
 
-std::optional<RowSymmetry> Ground::symmetry(const std::vector<InputClass>& classes) const {
+std::optional<RowSymmetry> AnalysisContext::symmetry(const std::vector<InputClass>& classes) const {
   std::vector<std::vector<std::size_t>> dimensions;
   for (const std::size_t a : alike_in_classes(like_agents, classes))
     dimensions.push_back(like_agents[a].dimensions);
@@ -95,41 +95,42 @@ std::optional<RowSymmetry> Ground::symmetry(const std::vector<InputClass>& class
   return RowSymmetry(abstraction->grid, dimensions);
 }
 
-void lay_ground(Ground& ground, ThreadTeam& team) {
-  const Abstraction& abstraction = *ground.abstraction;
+void set_up_context(AnalysisContext& context, ThreadTeam& team) {
+  const Abstraction& abstraction = *context.abstraction;
   const std::int64_t rows = abstraction.grid.rows(), row_length = abstraction.grid.row_length();
-  const std::optional<TubeLimits> limits = find_tube_limits(ground.spec, abstraction, ground.ranks);
-  ground.safe = CellSet(rows, row_length);
-  if (limits) ground.beyond = CellSet(rows, row_length);
-  if (ground.spec.ends_at_goal) ground.over = CellSet(rows, row_length);
+  const std::optional<TubeLimits> limits = find_tube_limits(context.spec, abstraction, context.ranks);
+  context.safe = CellSet(rows, row_length);
+  if (limits) context.beyond = CellSet(rows, row_length);
+  if (context.spec.ends_at_goal) context.over = CellSet(rows, row_length);
   const auto find_safe = [&](const std::vector<RowShare::Range>& runs) {
-    add_cells_that_satisfy(ground.spec.safe, ground.spec, abstraction.grid, abstraction.inputs, runs, team,
-                           ground.safe);
-    if (limits) add_safe_beyond(*limits, ground.spec, abstraction, ground.safe, runs, team, *ground.beyond);
-    if (ground.over) add_over(runs, team, ground);
+    add_cells_that_satisfy(context.spec.safe, context.spec, abstraction.grid, abstraction.inputs, runs, team,
+                           context.safe);
+    if (limits)
+      add_safe_beyond(*limits, context.spec, abstraction, context.safe, runs, team, *context.beyond);
+    if (context.over) add_over(runs, team, context);
   };
   // The engine has to know now that rows are shared; how they are cut may depend on the engine.
-  const bool is_cut = ground.share.has_value();
-  if (ground.ranks == nullptr) {
+  const bool is_cut = context.share.has_value();
+  if (context.ranks == nullptr) {
     find_safe({{0, rows}});
   } else if (!is_cut) {
-    ground.share = nothing_owned(*ground.ranks);
+    context.share = nothing_owned(*context.ranks);
   }
-  ground.engine.emplace(abstraction, nullptr, ground.tubes(), ground.shared_rows());
-  ground.hull.emplace(*ground.engine);
-  if (ground.ranks != nullptr) share_ground(ground, is_cut, find_safe);
-  ground.pairs = pair_rules(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr,
-                            ground.shared_rows());
-  ground.engine->set_pairs(ground.pairs);
-  ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
-  if (ground.ranks == nullptr && ground.pairs.admissible() == nullptr)
-    ground.like_agents = find_agents_alike(ground);
-  ground.safe_cells = ground.count(ground.safe);
-  if (ground.tiles && ground.over)
-    ground.tiles_with_over =
-        ground.tiles->refined(ground.tiles->tables(), number_rows(*ground.over, ground.shared_rows()));
-  ground.over_cells = ground.over ? ground.count(*ground.over) : 0;
-  ground.order.emplace(abstraction.grid);
+  context.engine.emplace(abstraction, nullptr, context.tubes(), context.shared_rows());
+  context.hull.emplace(*context.engine);
+  if (context.ranks != nullptr) share_context(context, is_cut, find_safe);
+  context.pairs = pair_rules(context.spec, abstraction, team,
+                             context.listed ? &context.listed->pairs : nullptr, context.shared_rows());
+  context.engine->set_pairs(context.pairs);
+  context.tiles = Tiles::find(*context.engine, *context.hull, context.safe);
+  if (context.ranks == nullptr && context.pairs.admissible() == nullptr)
+    context.like_agents = find_agents_alike(context);
+  context.safe_cells = context.count(context.safe);
+  if (context.tiles && context.over)
+    context.tiles_with_over =
+        context.tiles->refined(context.tiles->tables(), number_rows(*context.over, context.shared_rows()));
+  context.over_cells = context.over ? context.count(*context.over) : 0;
+  context.order.emplace(abstraction.grid);
 }
 
 }  // namespace coordreq

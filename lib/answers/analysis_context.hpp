@@ -35,12 +35,12 @@ struct ListedController {
 /// 3. `abstraction` is there after the stage "abstraction" (`share` too, if rows are cut before there are
 ///    tables), all members after it after "safe set".
 /// 4. Threads: any number may read once "safe set" is over; no member changes after that.
-struct Ground {
+struct AnalysisContext {
   /// @param all the processes that share the work; null: there is one process
-  explicit Ground(const Model& problem, Ranks* all = nullptr)
+  explicit AnalysisContext(const Model& problem, Ranks* all = nullptr)
       : model(problem), spec(problem.spec()), ranks(all) {}
-  Ground(const Ground&) = delete;
-  Ground& operator=(const Ground&) = delete;
+  AnalysisContext(const AnalysisContext&) = delete;
+  AnalysisContext& operator=(const AnalysisContext&) = delete;
 
   const Model& model;
   const ProblemSpec& spec;
@@ -87,6 +87,6 @@ struct Ground {
 };
 
 /// Finds S and makes the engine. @pre unchecked: the abstraction is there. Together.
-void lay_ground(Ground& ground, ThreadTeam& team);
+void set_up_context(AnalysisContext& context, ThreadTeam& team);
 
 }  // namespace coordreq
