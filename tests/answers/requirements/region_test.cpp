@@ -240,7 +240,7 @@ TEST(RegionOutside, ErrsTowardsReaching) {
     std::vector<RationalInterval> point(spec.slot_count());
     for (int k = 0; stays && k < 200; ++k) {
       for (std::size_t i = 0; i < 2; ++i) {
-        const Rational value(draw(-200, 200), draw(1, 20));
+        const Rational value = Rational(draw(-200, 200)) / Rational(draw(1, 20));
         point[i] = {.lower = value, .upper = value};
       }
       const bool outside = point[0].lower < Rational(-1, 2) || point[0].lower > Rational(9, 2) ||
