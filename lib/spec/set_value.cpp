@@ -31,10 +31,11 @@ using Pointer = OrderedJson::json_pointer;
 /// for a spec may have that instead.
 /// @throws SpecError as JsonDocument::parse()
 OrderedJson parsed(const std::string& text, const std::string& source) {
-  const JsonDocument document = JsonDocument::parse(text, source);
+  // A copy, since two documents at once take much memory.
+  const auto tokens = JsonDocument::parse(text, source).number_tokens();
   constexpr bool kMayThrow = true, kIgnoreComments = true;
   OrderedJson json = OrderedJson::parse(without_byte_order_mark(text), nullptr, kMayThrow, kIgnoreComments);
-  for (const auto& [pointer, token] : document.number_tokens()) {
+  for (const auto& [pointer, token] : tokens) {
     OrderedJson& number = json[Pointer(pointer)];
     if (parse_decimal(number.dump()) != parse_decimal(token)) number = token;
   }
