@@ -34,12 +34,6 @@ class RowShare {
   /// The rows of this rank and its ghost rows, ascending.
   [[nodiscard]] const std::vector<Range>& held() const { return held_; }
 
-  [[nodiscard]] bool holds(std::int64_t row) const {
-    const auto after = std::upper_bound(held_.begin(), held_.end(), row,
-                                        [](std::int64_t one, const Range& run) { return one < run.end; });
-    return after != held_.end() && after->begin <= row;
-  }
-
   /// A rank whose ghost rows are rows of this one, or the other way round.
   struct Peer {
     int rank = 0;

@@ -66,11 +66,8 @@ class Builder : public nlohmann::json_sax<Json> {
     if (error.id == kNumberOverflow) {
       json_.fail("number beyond the range of a double: " + quote_text(token), position - token.size());
     }
-    const bool is_list = !levels_.empty() && levels_.back().value->is_array();
-    fail_syntax(json_, position,
-                levels_.empty() ? JsonLevel::kOutermost
-                : is_list       ? JsonLevel::kList
-                                : JsonLevel::kObject);
+    if (levels_.empty()) fail_syntax(json_, position, JsonLevel::kOutermost);
+    fail_syntax(json_, position, levels_.back().value->is_array() ? JsonLevel::kList : JsonLevel::kObject);
   }
 
  private:

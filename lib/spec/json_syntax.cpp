@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
 #include "spec/wording.hpp"
@@ -47,7 +48,7 @@ std::string_view expected_at(const JsonText& json, std::size_t start, JsonLevel 
   }
   const std::size_t escape = std::min(json.text.rfind('\\', wrong), wrong);
   const std::size_t length = std::min<std::size_t>(wrong + 1 - escape, token.size());
-  json.fail(fmt::format("expected an escape as \\n, \\\\ or \\u00E9, found {}",
+  json.fail(fmt::format("expected an escape such as \\n, \\\\ or \\u00E9, found {}",
                         quote_text(json.text.substr(escape, length))),
             escape);
 }
@@ -61,14 +62,14 @@ void fail_syntax(const JsonText& json, std::size_t read, JsonLevel level) {
   const bool is_end = read > json.text.size() && !is_broken(json.token(start));
   if (is_end) {
     start = json.text.size();
-    if (json.ends_in_comment())
-      json.fail("expected '*/' at the end of a comment, found the end of the file", start);
+    if (const std::optional<std::size_t> comment = json.open_comment())
+      json.fail("expected '*/' at the end of this comment, found the end of the file", *comment);
   }
 
   const std::string_view token = json.token(start);
   if (is_broken(token) && token[0] == '"') fail_string(json, token, read - 1);
   if (is_broken(token) && (token[0] == '-' || (token[0] >= '0' && token[0] <= '9')))
-    json.fail(fmt::format("expected a number as 10, 0.5 or 1e-3, found {}", quote_text(token)), start);
+    json.fail(fmt::format("expected a number such as 10, 0.5 or 1e-3, found {}", quote_text(token)), start);
   if (token == "]" || token == "}") {
     const std::size_t before = json.token_before(start);
     if (json.token(before) == ",")

@@ -111,13 +111,13 @@ std::size_t JsonText::token_from(std::size_t offset) const {
   return offset;
 }
 
-bool JsonText::ends_in_comment() const {
-  std::size_t i = 0;
-  while (i < text.size()) {
+std::optional<std::size_t> JsonText::open_comment() const {
+  for (std::size_t i = 0; i < text.size();) {
     const std::size_t end = comment_end(text, i);
+    if (end == std::string_view::npos) return i;
     i = end == i ? token_end(text, i) : end;
   }
-  return i == std::string_view::npos;
+  return std::nullopt;
 }
 
 std::size_t JsonText::bracket(std::size_t number) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,8 +26,8 @@ struct JsonText {
 
   /// Where the first token at `offset` or behind it starts, comments left out.
   [[nodiscard]] std::size_t token_from(std::size_t offset) const;
-  /// Whether the text ends within a comment that needs an end of its own.
-  [[nodiscard]] bool ends_in_comment() const;
+  /// Where a comment starts that has no end, though it needs one; nothing if there is none.
+  [[nodiscard]] std::optional<std::size_t> open_comment() const;
 
   /// Where the `number`-th bracket (from 1) stands that opens an object or a list.
   /// @pre unchecked: the text is well-formed up to there.

@@ -28,6 +28,12 @@ bool same(const std::vector<Arb>& a, const std::vector<Arb>& b) {
                     [](const Arb& x, const Arb& y) { return arb_equal(x.get(), y.get()) != 0; });
 }
 
+/// Of what the transition matrix of a step takes, and with it what disturbances do in the step.
+Work work_of_transition(std::size_t states, std::size_t disturbances) {
+  constexpr std::size_t kProducts = 20;  // that the exponential of a matrix takes, about
+  return static_cast<Work>(kProducts * states * states * (states + disturbances));
+}
+
 /// Narrows a tube around a solution from the middle of its start, which goes on from a point of the tube at
 /// each step. From another one it differs by the transition matrices times their distance at the start (mean
 /// value theorem), by what disturbances make of it, and by what was left out at the points.
@@ -53,10 +59,10 @@ class MiddleSolution {
     arb_mat_one(by_start_.get());
   }
 
-  /// Steps are told one after the other. Where one has no slopes nothing more is known.
-  void narrow(TubeStep& step) {
+  /// Narrows the end of the next step, as long as all steps have slopes. @returns the work on matrices
+  Work narrow(TubeStep& step) {
     is_known_ = is_known_ && step.slopes && advance(step.tube);
-    if (!is_known_) return;
+    if (!is_known_) return 0;
     const std::size_t n = states_.size(), m = disturbances_;
     const ArbMatrix by_state = columns(*step.slopes, n, 0, n);
     const ArbMatrix& moved = step.transition.emplace(transition_matrix(by_state, step_));
@@ -87,11 +93,7 @@ class MiddleSolution {
       left_out_.set(i, 0, left_out_(i, 0) + (now - middle));
       now = middle;
     }
-  }
-
-  /// In the last step.
-  [[nodiscard]] Work work_of_disturbances() const {
-    return static_cast<Work>(pushes_.size() * states_.size() * states_.size() * (states_.size() + 1));
+    return work_of_transition(n, m) + static_cast<Work>(pushes_.size() * n * n * (n + 1));
   }
 
  private:
@@ -202,15 +204,12 @@ bool FlowExtremes::passes_a_seam() const {
 }
 
 std::optional<std::vector<TubeStep>> FlowExtremes::enclosed(int steps) {
-  const int pieces = effort_.steps < 8 ? 1 : std::min(effort_.steps / 4, 8);
-  if (effort_.steps < 8) return enclose_flow(field_, limits_, box_, period_, steps, pieces);
+  if (effort_.steps < 8) return enclose_flow(field_, limits_, box_, period_, steps, 1);
   MiddleSolution middle(trajectory_, box_, states_, disturbances_, period_ / Arb(static_cast<double>(steps)),
                         kOfMiddle * cell_ / steps);
-  const auto narrow = [&](TubeStep& step) {
-    middle.narrow(step);
-    matrix_work_ += work_of_transition() + middle.work_of_disturbances();
-  };
-  return enclose_flow(field_, limits_, box_, period_, steps, disturbances_.empty() ? 1 : pieces, narrow);
+  const int pieces = disturbances_.empty() ? 1 : std::min(effort_.steps / 4, 8);
+  return enclose_flow(field_, limits_, box_, period_, steps, pieces,
+                      [&](TubeStep& step) { matrix_work_ += middle.narrow(step); });
 }
 
 int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const {
@@ -243,12 +242,6 @@ const std::optional<FlowExtremes::Influence>& FlowExtremes::influence_after(std:
   return *known;
 }
 
-Work FlowExtremes::work_of_transition() const {
-  constexpr std::size_t kProducts = 20;  // that the exponential of a matrix takes, about
-  const std::size_t n = states_.size();
-  return static_cast<Work>(kProducts * n * n * (n + disturbances_.size()));
-}
-
 std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t steps) {
   const std::size_t n = states_.size();
   const std::size_t m = disturbances_.size();
@@ -257,15 +250,18 @@ std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t 
   result.of_disturbance.assign(steps, ArbMatrix(n, m));
   for (std::size_t k = steps; k-- > 0;) {
     if (!steps_[k].slopes) return std::nullopt;
-    matrix_work_ += work_of_transition();
     const ArbMatrix by_state = columns(*steps_[k].slopes, n, 0, n);
+    if (!steps_[k].transition) {
+      steps_[k].transition = transition_matrix(by_state, step_);
+      matrix_work_ += work_of_transition(n, 0);
+    }
     if (m > 0) {
+      matrix_work_ += work_of_transition(n, m);
       const ArbMatrix within = result.of_start * transition_matrix(by_state, hull(Arb(), step_));
       result.of_disturbance[k] = within * columns(*steps_[k].slopes, n, n, m);
       if (arb_mat_is_finite(result.of_disturbance[k].get()) == 0) return std::nullopt;
     }
-    result.of_start =
-        result.of_start * (steps_[k].transition ? *steps_[k].transition : transition_matrix(by_state, step_));
+    result.of_start = result.of_start * *steps_[k].transition;
   }
   if (arb_mat_is_finite(result.of_start.get()) == 0) return std::nullopt;
   return result;

@@ -58,7 +58,6 @@ class FlowExtremes : public NextValue {
   [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
   [[nodiscard]] const std::optional<Influence>& influence_after(std::size_t steps);
   [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps);
-  [[nodiscard]] Work work_of_transition() const;
   [[nodiscard]] Extreme bound_after(std::size_t steps, std::size_t state, bool greatest) const;
   void follow(const Influence& influence, std::size_t state, bool greatest, Extreme& extreme);
   [[nodiscard]] bool move_on(ArbBox& now, const std::vector<std::vector<Arb>>& signal);

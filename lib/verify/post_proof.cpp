@@ -74,20 +74,20 @@ std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<P
   return proofs;
 }
 
-/// Its faces where these are enough, which are thinner to cut further; else its halves.
+/// Faces of a piece where all extremes are on these, else its halves.
 std::vector<PostProver::Piece> PostProver::parts_of(const Piece& piece, std::uint32_t cut) const {
   std::vector<Piece> parts;
   const auto add = [&](std::uint32_t slot, const Arb& lower, const Arb& upper) {
     parts.push_back(piece);
     parts.back().box[slot] = {lower, upper};
   };
-  const ArbSpan whole = piece.box[cut];
   if (next_->has_extremes_on_faces()) {
     for (const std::uint32_t slot : next_->divisible()) {
       add(slot, piece.box[slot].lower, piece.box[slot].lower);
       add(slot, piece.box[slot].upper, piece.box[slot].upper);
     }
   } else {
+    const ArbSpan& whole = piece.box[cut];
     add(cut, whole.middle(), whole.upper);
     add(cut, whole.lower, whole.middle());
   }
