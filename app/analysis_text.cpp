@@ -95,7 +95,7 @@ void add_layers(const AnswerPolicy& policy, const Json& own, Facts& facts) {
                                                      cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }
 
-/// How much silence so many percent of K tolerate at least. @pre there is a finite delay
+/// The silence that so many percent of K tolerate at least. @pre there is a finite delay
 std::string tolerated(const Json& partition, const Json& summary, int percent) {
   const Json& layers = partition["layers"];
   REQUIRES(layers.size() > 1);

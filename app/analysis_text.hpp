@@ -9,10 +9,10 @@
 // An analysis in words, from the summary of analyze().
 namespace coordreq {
 
-/// What `analyze` prints for people.
+/// The text of `analyze`.
 [[nodiscard]] std::string summary_text(const Json& summary, const ProblemSpec& spec);
 
-/// With more partitions than this each gets one line of a table.
+/// Up to so many partitions are told in full; more get one line each of a table.
 inline constexpr std::size_t kMostPartitionsInFull = 3;
 /// They are not in a table, and there is something to say of them.
 [[nodiscard]] bool tells_partitions_in_full(const Json& summary);

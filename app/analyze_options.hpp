@@ -14,7 +14,7 @@
 
 namespace coordreq {
 
-/// What `analyze` has been asked for.
+/// The command line of `analyze`.
 struct AnalyzeOptions : CommonOptions {
   std::vector<std::string> specs;
   std::vector<SpecSetting> settings;

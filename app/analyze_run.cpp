@@ -74,7 +74,7 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
 std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                                   const AnalyzeOptions& asked, const std::string& prefix) {
   const Model model = with_places_in(spec, [&] { return make_model(spec); });
-  // Of several processes each knows what it holds only later.
+  // Each of several processes knows only later which rows it holds.
   const bool is_alone = asked.ranks == nullptr || asked.ranks->count() == 1;
   ThreadTeam team(is_alone
                       ? threads_within(model, asked.memory(), asked.threads, asked.checkpoint.has_value())

@@ -41,7 +41,7 @@ void add_runs(const AnalyzeOptions& asked, const std::string& path,
   }
 }
 
-/// As a part of a file name: letters, digits and a few signs that need no quotes anywhere.
+/// A text as a part of a file name: letters, digits and a few signs that need no quotes anywhere.
 std::string file_part(const std::string& text) {
   std::string part = text;
   for (char& c : part) {

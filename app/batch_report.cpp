@@ -40,7 +40,7 @@ std::string requirements_met(const Json& summary) {
   return fmt::format("{} of {}", met, all.size());
 }
 
-/// Those of every run; those that some have stand before the last.
+/// Columns of every run; those that only some runs have stand before the last.
 constexpr const char* kFigures[] = {"cells",   "safe",   "invariant", "requirements met",
                                     "seconds", "memory", "F",         "unbounded"};
 constexpr const char* kLastFigure = "longest finite delay";
@@ -83,7 +83,7 @@ std::vector<std::string> wide_figures(const ProblemSpec& spec, const RunFigures&
   return result;
 }
 
-/// Those that the spec of some run has.
+/// Columns that the spec of some run asks for.
 RunFigures figures_of_some(const std::vector<PlannedRun>& runs) {
   RunFigures result;
   std::copy_if(run_figures().begin(), run_figures().end(), std::back_inserter(result),
@@ -95,7 +95,7 @@ RunFigures figures_of_some(const std::vector<PlannedRun>& runs) {
   return result;
 }
 
-/// What tells one run from the others.
+/// The values that tell one run from the others.
 std::vector<std::string> labels(const PlannedRun& run, bool has_path) {
   std::vector<std::string> result;
   if (has_path) result.push_back(printable(run.path));
@@ -121,7 +121,7 @@ std::vector<Table::Align> alignment(std::size_t labels, std::size_t columns) {
   return result;
 }
 
-/// As JSON where it is some, else the text.
+/// The value parsed as JSON, or the text if it is none.
 Json value_json(const std::string& value) {
   const Json json = Json::parse(value, nullptr, false);
   return json.is_discarded() ? Json(value) : json;

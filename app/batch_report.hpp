@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// What has become of a run.
+/// The outcome of a run.
 struct RunOutcome {
   std::shared_ptr<const Json> summary;  ///< none if it failed
   std::optional<Failure> failure;

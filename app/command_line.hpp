@@ -22,12 +22,13 @@ struct ProgramInfo {
 /// coordreq itself.
 [[nodiscard]] ProgramInfo coordreq_program();
 
-/// What the user asked for, read and checked. Help and version are commands too: they print and succeed.
+/// The command that the user asked for, read and checked. Help and version are commands too: they print and
+/// succeed.
 /// @throws UsageError saying what was found and what was expected
 [[nodiscard]] Run parse_command_line(int argc, const char* const* argv,
                                      const ProgramInfo& program = coordreq_program());
 
-/// What `--help` of a command prints, or that of the program for an empty name.
+/// The text of `--help` of a command, or of the program for an empty name.
 /// @throws UsageError if there is no such command
 [[nodiscard]] std::string help_text(const std::string& command);
 

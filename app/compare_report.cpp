@@ -103,7 +103,7 @@ std::string sets_table(const std::vector<Compared>& sets) {
   return table.text();
 }
 
-/// What entries of the leading axis are: "partition".
+/// The name of the leading axis: "partition".
 std::string axis_of(const Field& field) {
   return field.axes.front().substr(1);
 }

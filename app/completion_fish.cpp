@@ -44,7 +44,7 @@ end
 
 )fish";
 
-/// As the inside of single quotes.
+/// A text as the inside of single quotes of fish.
 std::string fish_quoted(const std::string& text) {
   std::string result;
   for (const char c : text) {

@@ -5,7 +5,7 @@
 
 #include "results/results_reader.hpp"
 
-// What answers in CSV are made of.
+// The pieces of answers in CSV.
 namespace coordreq {
 
 /// A number of steps, "inf" without end.

@@ -53,7 +53,7 @@ Json remedy_json(const DelayExplanation::Remedy& remedy, std::size_t partition,
   return json;
 }
 
-/// As requirements have it, so that the story is told the same way.
+/// The finding as a requirement has it, so that the story is told the same way.
 Json as_silence_requirement(const Json& found) {
   return {{"kind", "min_silence"},
           {"partition", found["partition"]},
@@ -96,7 +96,7 @@ std::string silence_text(const Json& silence, const ProblemSpec& spec) {
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(silence["silence"]), spec);
 }
 
-/// What silent agents may do, and what breaks it.
+/// Adds the actions of silent agents, and the way that breaks their promise.
 void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
   const Json& silence = found["silence"];
   std::vector<std::string> parts;
@@ -124,7 +124,7 @@ std::string classes_are(const Json& freedom) {
   return listed_words(parts);
 }
 
-/// What is left to the classes, and what that means.
+/// Adds the actions that are left to the classes, with their meaning.
 void add_freedom(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
   const Json& freedom = found["freedom"];
   text.push_back(fmt::format("Of their actions the controller leaves {} here.", classes_are(freedom)));
@@ -166,7 +166,7 @@ void add_remedies(const Json& found, const ProblemSpec& spec, std::vector<std::s
     text.push_back("No class alone can lengthen this by keeping to one action here.");
 }
 
-/// As requirements have it, so that the story is told the same way.
+/// The way out as a requirement has it, so that the story is told the same way.
 Json as_requirement(const Json& found) {
   return {{"kind", "min_delay"}, {"partition", found["partition"]}, {"counterexample", found["way_out"]}};
 }

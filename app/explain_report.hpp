@@ -9,10 +9,10 @@
 
 namespace coordreq {
 
-/// What `explain` has found of a state in a cell, as a document. @param partition its number
+/// The findings of `explain` about a state in a cell, as a document. @param partition its number
 [[nodiscard]] Json explanation_json(const DelayExplanation& found, const std::vector<Rational>& state,
                                     std::int64_t cell, std::size_t partition, const ResultsReader& results);
-/// The same in words, made of nothing but it.
+/// The document in words; no other source.
 [[nodiscard]] std::string explanation_text(const Json& explanation, const ProblemSpec& spec);
 
 }  // namespace coordreq

@@ -9,7 +9,7 @@ namespace coordreq {
 /// The document indented by two, ending in a newline. File names may hold bytes that are not UTF-8: those
 /// become U+FFFD.
 [[nodiscard]] std::string json_text(const Json& json);
-/// The same on one line.
+/// json_text() on one line.
 [[nodiscard]] std::string json_line(const Json& json);
 
 }  // namespace coordreq

@@ -41,7 +41,7 @@ std::string inputs_text(const Json& first) {
   return values_text(known);
 }
 
-/// What there is to say of the first row of a finding.
+/// The details of the first row of a finding.
 std::string detail(const std::string& finding, const Json& first, const Json& document) {
   const std::string at = values_text(first["state"]);
   if (is_of_states(finding)) return at;

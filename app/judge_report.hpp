@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// What the rows of a log come to: of each kind of finding how many, and the first.
+/// The summary of a judged log: for each kind of finding the number of rows, and the first one.
 class JudgeSummary {
  public:
   /// @pre unchecked: `results` outlives this object.

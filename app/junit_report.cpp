@@ -50,7 +50,7 @@ void add_requirement(pugi::xml_node suite, const std::string& class_name, const 
   failure.append_child(pugi::node_pcdata).set_value(xml_text(text).c_str());
 }
 
-/// What suites say of themselves, and the sum of them.
+/// The counts of a suite, and of all suites.
 struct Totals {
   std::size_t tests = 0;
   std::size_t failures = 0;

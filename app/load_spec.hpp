@@ -29,7 +29,7 @@ void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 [[nodiscard]] ProblemSpec read_with_settings(const SpecSource& source,
                                              const std::vector<SpecSetting>& settings);
 
-/// What `work` on a spec returns. @throws SpecError with the place in what was written
+/// Runs `work` on a spec and returns its result. @throws SpecError with the place in the text as written
 template <class Work>
 auto with_places_in(const ProblemSpec& spec, const Work& work) {
   return with_places(written_spec(spec), work);

@@ -52,7 +52,7 @@ coordreq compare circle.h5 smaller.h5
 .RE
 )";
 
-/// As running text: no character means anything to roff, and a hyphen is one that can be copied.
+/// A text as running text: no character means anything to roff, and a hyphen is one that can be copied.
 std::string roff(const std::string& text) {
   std::string result;
   for (const char c : text) {

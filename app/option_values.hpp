@@ -9,7 +9,7 @@
 
 #include "cell/simulate.hpp"
 
-// What the values of options stand for. Every reader throws UsageError with what was found, what was
+// Readers of the values of options. Every reader throws UsageError with what was found, what was
 // expected, and the option as the place.
 namespace coordreq {
 

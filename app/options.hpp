@@ -97,7 +97,7 @@ struct CommonUse {
   bool answer = true;  ///< --json and --quiet
 };
 
-/// What most commands take.
+/// The options of most commands.
 struct CommonOptions {
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
@@ -106,7 +106,7 @@ struct CommonOptions {
 
   int sharers = 1;  ///< processes that share the memory of the machine
 
-  /// What the work may use: --max-memory, else what the machine has for each of those that share it.
+  /// Limit of memory: --max-memory, else the share of the machine's memory for this process.
   [[nodiscard]] std::optional<std::uint64_t> memory() const;
   /// From now on no more than --max-memory is taken, if it was given.
   void hold_to_memory() const;
@@ -117,7 +117,7 @@ struct CommonOptions {
   [[nodiscard]] int threads_for(const std::string& subject, const MemoryDemand& demand) const;
 };
 
-/// Of the common options, --threads by itself.
+/// Declares --threads alone of the common options.
 void declare_threads(Options& options, int& threads, const char* description);
 /// To be declared last.
 void declare_common(Options& options, CommonOptions& common, const CommonUse& use = {});

@@ -9,7 +9,7 @@ class App;
 
 namespace coordreq {
 
-/// What an option or an argument takes.
+/// The help on the value of an option or an argument.
 struct ValueHelp {
   /// As the help prints it: "FILE", "csv|scs", "random|VALUES". Words in lower case stand for themselves,
   /// words in capitals for something else. Empty: nothing is taken, it is a flag.

@@ -13,7 +13,7 @@ namespace {
 /// Columns after the state that all files have: inside, cell, safe, invariant, collision_time.
 constexpr std::size_t kOfAllFiles = 5;
 
-/// Of a probability all digits: one that is rounded could be less than it.
+/// A number with all digits of a probability: a rounded one could be less than it.
 std::string csv_number(const Field& field, std::int32_t value) {
   return field.kind == FieldKind::probability ? fmt::format("{}", probability_of(value)) : csv_steps(value);
 }

@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// What there is to tell of the states of a file.
+/// The columns and members of answers about states of a file.
 struct QueryForm {
   /// @pre unchecked: `results` outlives this object.
   explicit QueryForm(const ResultsReader& results);
@@ -31,7 +31,7 @@ struct QueryForm {
 /// Prints what `query` has found of a state.
 void print_state(const CommonOptions& asked, const StateAnswer& answer, const QueryForm& form);
 
-/// The same as a document, on one line, in words. @param state that was asked for
+/// An answer as a document, on one line, in words. @param state that was asked for
 [[nodiscard]] Json answer_json(const StateAnswer& answer, const QueryForm& form);
 /// @param extra what stood beside the state, under the key `extra`; null: is not told
 [[nodiscard]] std::string answer_json_line(const StateAnswer& answer, const QueryForm& form,

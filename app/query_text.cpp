@@ -139,7 +139,7 @@ class AnswerText {
     return fmt::format("\npartition {}\n{}", text_of(partition["name"]), facts_text(facts));
   }
 
-  /// Of a policy that does not hold everywhere, no actions where it leaves none.
+  /// Adds the actions of the classes; none where a policy that does not hold everywhere leaves none.
   void add_classes(const AnswerPolicy& policy, const Json& classes, Facts& facts) const {
     for (const Json& own : classes) {
       if (policy.name.empty() || policy.is_by_agent || !own["actions"].empty())
@@ -192,8 +192,8 @@ class AnswerText {
     return inputs.size() == 1 ? text : "(" + text + ")";
   }
 
-  /// What is chosen, or which entries hold. Fields of one group follow one another; if nothing is chosen
-  /// the others are not told.
+  /// The choices, or the entries that hold. Fields of one group follow one another; if nothing is chosen the
+  /// others are left out.
   [[nodiscard]] std::string sections_text() const {
     std::string text;
     Facts facts;

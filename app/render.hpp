@@ -9,11 +9,11 @@
 #include "app/json_text.hpp"
 #include "app/text.hpp"
 
-// What the texts of all commands are made of: each is rendered from the document that --json prints.
+// The pieces of the texts of all commands: each text is rendered from the document that --json prints.
 namespace coordreq {
 
 [[nodiscard]] std::int64_t number_of(const Json& json);
-/// As it is, and on one line.
+/// The text of a JSON string as it is, and on one line.
 [[nodiscard]] std::string text_of(const Json& json);
 [[nodiscard]] std::string line_of(const Json& json);
 /// "1,234", "1,234 cells".

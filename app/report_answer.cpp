@@ -23,7 +23,7 @@ std::string time_text(std::int64_t steps, const ResultsReader& results) {
                      html_line(unit), count);
 }
 
-/// What is said about one partition.
+/// The sentences about one partition.
 class PartitionAnswer {
  public:
   PartitionAnswer(const ResultsReader& results, std::size_t p, std::int64_t best_cell)
@@ -76,7 +76,7 @@ class PartitionAnswer {
                           : share_text(count, kept()));
   }
 
-  /// How much silence most, half, few of the states tolerate.
+  /// The silence that most, half and few of the states tolerate.
   [[nodiscard]] std::string shares() const {
     if (is_joint() || stored_.layer_sizes.size() < 2) return "";
     std::string rows;
@@ -209,7 +209,7 @@ std::string partition_answers(const ResultsReader& results, const ReportData& da
                                                              : in_full(results, data);
 }
 
-/// What the numbers count, and how far they can be trusted.
+/// The meaning of the numbers, and their limits.
 std::string fine_print(const ResultsReader& results) {
   const StoredAttributes& attributes = results.attributes();
   const auto cells = static_cast<std::uint64_t>(results.grid().cells());

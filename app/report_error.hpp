@@ -17,11 +17,11 @@ constexpr int kInternalError = 70;
 /// an exception that it is given no memory.
 void report_what_terminates();
 
-/// What to do about a bug of this program: "please report it ...", with the address for it if the build was
-/// told one (COORDREQ_ISSUES).
+/// The request to report a bug of this program: "please report it ...", with the address for it if the build
+/// was told one (COORDREQ_ISSUES).
 [[nodiscard]] std::string report_request();
 
-/// What an exception says, where the program continues.
+/// The message of an exception after which the program continues.
 struct Failure {
   std::string what;  ///< WHAT (WHERE), on one line
   int exit_code = 0;

@@ -10,7 +10,7 @@ namespace coordreq {
 
 /// User text on one line as HTML.
 [[nodiscard]] std::string html_line(const std::string& text);
-/// The same as code.
+/// User text on one line in a `code` element of HTML.
 [[nodiscard]] std::string html_code(const std::string& text);
 
 /// "0.5 m". @param unit user text

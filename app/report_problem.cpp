@@ -81,15 +81,15 @@ std::string disturbances_table(const ProblemSpec& spec) {
   return html_table("Disturbances", {"disturbance", "anything from"}, rows);
 }
 
-/// What the safe set and `allow` mention.
+/// The names that the safe set and `allow` mention.
 std::set<std::string> names_of_safety(const ProblemSpec& spec) {
   std::set<std::string> names = names_in(spec.safe.text);
   if (spec.controller.allow) names.merge(names_in(spec.controller.allow->text));
   return names;
 }
 
-/// What definitions, memories and constants stand for, as a list of code: those among the names, and those
-/// that these mention in turn. @param said those that are left out, with all behind them
+/// The meanings of definitions, memories and constants, as a list of code: those among the names, and those
+/// that these mention in turn. @param said names that are left out, with the names that they mention
 std::string meanings(const ProblemSpec& spec, const std::set<std::string>& names,
                      const std::set<std::string>& said) {
   const Json text = Json::parse(spec.text, nullptr, true, true);

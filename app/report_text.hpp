@@ -12,19 +12,19 @@ namespace coordreq {
 /// The description if it is short, else the name.
 [[nodiscard]] std::string report_title(const ProblemSpec& spec);
 
-/// What was asked, in short: description, agents, what counts as safe.
+/// The problem in short: description, agents, what counts as safe.
 [[nodiscard]] std::string report_task(const ResultsReader& results);
 
 /// For each partition the answer in a sentence. @param data of the page: the best cells
 [[nodiscard]] std::string report_answer(const ResultsReader& results, const ReportData& data);
 
-/// What was asked, in full: agents, states, the spec.
+/// The problem in full: agents, states, the spec.
 [[nodiscard]] std::string report_details(const ResultsReader& results);
 
 /// Where the results come from.
 [[nodiscard]] std::string report_footer(const ResultsReader& results);
 
-/// What the names in regions of requirements stand for, but for those of which report_task() says so.
+/// The meaning of names in regions of requirements, except those that report_task() explains.
 [[nodiscard]] std::string report_names_of_regions(const ProblemSpec& spec);
 
 /// Each requirement with its verdict, and what goes wrong where one fails; empty if there are none.

@@ -18,7 +18,7 @@ const RequirementTraits& traits_of(const Json& own) {
   return requirement_traits(own["kind"].get<std::string>());
 }
 
-/// What its states are judged by: "delay", "arrival" or "approach_delay".
+/// The value by which states are judged: "delay", "arrival" or "approach_delay".
 std::string value_key(const Json& own) {
   return traits_of(own).value;
 }
@@ -89,7 +89,7 @@ std::string end_text(const Json& story) {
   return "no action is allowed any more";
 }
 
-/// Of agents who act by their rules, until what comes after silence cannot help any more.
+/// The story of agents who follow their rules, up to the state in which coordination cannot help any more.
 std::vector<std::string> silent_sentences(const Json& own, const ProblemSpec& spec) {
   const Json& story = own["counterexample"];
   std::map<std::string, std::int64_t> count;
@@ -228,7 +228,7 @@ StoryTable story_table(const Json& own, const ProblemSpec& spec) {
 
 namespace {
 
-/// What is proven beside what is seen: enclosures are wider than motion.
+/// Adds the proven number beside the seen one: enclosures are wider than motion.
 void add_seen(const Json& story, const ProblemSpec& spec, std::vector<std::string>& sentences) {
   if (story["proven"].is_null()) return;
   const Json& first = story["steps"].front()["action"];

@@ -19,7 +19,7 @@ namespace coordreq {
 
 /// The key of the worst value of its states: "least_delay", "longest_arrival" or "least_approach_delay".
 [[nodiscard]] std::string worst_key(const Json& own);
-/// What is the matter with the worst cell: "has a delay of 2 steps (1 s)", "is not safe".
+/// The fault of the worst cell: "has a delay of 2 steps (1 s)", "is not safe".
 /// @param kind of the requirement @param value number of steps
 /// @param status as delay_word() says it, not unbounded
 [[nodiscard]] std::string worst_text(const Json& kind, const Json& value, const Json& status,
@@ -30,7 +30,7 @@ namespace coordreq {
 
 /// Why it fails, in one line; empty if it holds.
 [[nodiscard]] std::string failure_line(const Json& own, const ProblemSpec& spec);
-/// The same with the story of its counterexample: lines that end in newlines.
+/// failure_line() with the story of its counterexample: lines that end in newlines.
 [[nodiscard]] std::string failure_text(const Json& own, const ProblemSpec& spec);
 
 /// There is more to tell than the worst cell. @pre it fails
@@ -45,7 +45,7 @@ struct StoryTable {
 /// @pre the counterexample has a state, likewise below
 [[nodiscard]] StoryTable story_table(const Json& own, const ProblemSpec& spec);
 
-/// The same in sentences.
+/// The story in sentences.
 [[nodiscard]] std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec);
 
 /// All of an analysis; empty if there are none.

@@ -83,7 +83,8 @@ std::string coordinated_text(const Json& simulation) {
                      count_of(steps, "step"), percent);
 }
 
-/// Of the first run that contradicts the analysis. Where losses are drawn the invariance set may be left.
+/// The text about the first run that contradicts the analysis. Where losses are drawn the invariance set may
+/// be left.
 std::string violation_text(const Json& simulation) {
   const Json& traces = simulation["traces"];
   const auto violates = [lossy = is_lossy(simulation)](const Json& trace) {
@@ -98,7 +99,7 @@ std::string violation_text(const Json& simulation) {
                      grouped((*first)["steps"]), values_text((*first)["end"]), report_request());
 }
 
-/// Of the first run that could not be followed to its end.
+/// The text about the first run that could not be followed to its end.
 std::string not_followed_text(const Json& simulation) {
   for (const Json& trace : simulation["traces"]) {
     if (trace["outcome"] != "not_followed") continue;
@@ -135,7 +136,7 @@ Json trace_json(const RunTrace& trace, std::size_t run, const ProblemSpec& spec)
   return json;
 }
 
-/// How many runs reach the goal, and when the last of them does.
+/// The number of runs that reach the goal, and the time of the last arrival.
 std::string goal_of_runs_text(const Json& simulation) {
   std::int64_t count = 0, latest = 0;
   for (const Json& trace : simulation["traces"]) {

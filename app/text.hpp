@@ -66,7 +66,7 @@ class Table {
   [[nodiscard]] std::string line(const std::vector<std::string>& row) const;
 
  private:
-  /// How many cells of the row are aligned.
+  /// Number of cells of the row that are aligned.
   [[nodiscard]] std::size_t aligned(const std::vector<std::string>& row) const;
 
   std::vector<Align> columns_;

@@ -8,8 +8,8 @@
 #include "results/results_reader.hpp"
 #include "spec/spec_types.hpp"
 
-// What commands say of single answers, beyond what they say of any: members of JSON for which nothing is here
-// are printed as they are. All other texts know no answer by name.
+// The texts of single answers. Members of JSON without a text here are printed as they are; all other texts
+// know no answer by name.
 namespace coordreq {
 
 /// Facts about the sets, of the summary of `analyze` and of `info`; nothing where there are none.
@@ -22,7 +22,7 @@ using AnalysisSection = std::string (*)(const Json& summary, const ProblemSpec& 
 [[nodiscard]] const std::vector<AnalysisSection>& analysis_sections();
 using InfoSection = std::string (*)(const Json& info);
 [[nodiscard]] const std::vector<InfoSection>& info_sections();
-/// Of the page of `report`, as HTML for people who do not code.
+/// A section of the page of `report`, as HTML for people who do not code.
 using ReportSection = std::string (*)(const ResultsReader& results);
 [[nodiscard]] const std::vector<ReportSection>& report_sections();
 
@@ -39,7 +39,7 @@ using RunFigures = std::vector<RunFigure>;
 /// Members of both documents that these tell of.
 [[nodiscard]] const std::vector<std::string>& told_members();
 
-// Of each answer, in a file of its own:
+// The texts of each answer, in a file of its own:
 void add_goal_of_analysis(const Json& summary, Facts& facts);
 void add_goal_of_file(const Json& info, Facts& facts);
 [[nodiscard]] std::string report_goal(const ResultsReader& results);

@@ -81,7 +81,8 @@ std::string coalitions_of_analysis(const Json& summary, const ProblemSpec& /*spe
                      pairs_table(coalition));
 }
 
-/// How many cells are given which partition, and where pairs are critical, as far as there are any.
+/// The number of cells that are given each partition, and of those in which each pair is critical, if there
+/// are any.
 std::string coalitions_of_file(const Json& info) {
   const Json& coalition = info["coalition"];
   if (coalition.is_null()) return "";

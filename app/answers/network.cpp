@@ -17,7 +17,7 @@ namespace {
 /// Modes that a table shows.
 constexpr std::size_t kMostModes = 12;
 
-/// What a table has left out; empty if nothing.
+/// The number of modes that a table has left out; empty if none.
 std::string more_modes(std::size_t modes) {
   return modes <= kMostModes ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostModes));
 }

@@ -10,7 +10,7 @@ namespace {
 
 using Align = Table::Align;
 
-/// Of files with an answer by which requirements may judge states otherwise than by delays.
+/// Whether the file has an answer by which requirements may judge states otherwise than by delays.
 bool has_other_values(const Json& info) {
   return std::ranges::any_of(requirement_kinds(), [&info](const RequirementTraits& kind) {
     return !kind.needs.empty() && info.contains(kind.needs);

@@ -28,7 +28,7 @@ void add(Warnings more, Warnings& all) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// What one process can say by itself, from K or from S alone.
+/// The warnings of a single process, from K or from S alone.
 Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion, bool finds_invariance,
                       ThreadTeam& team) {
   Warnings all = advise_on_spec(model.spec());

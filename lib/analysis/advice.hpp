@@ -9,8 +9,8 @@
 
 namespace coordreq {
 
-/// What the spec itself shows: grids that miss the ends of their domains; constants, definitions, inputs and
-/// disturbances that nothing uses.
+/// Warnings that follow from the spec alone: grids that miss the ends of their domains; constants,
+/// definitions, inputs and disturbances that nothing uses.
 [[nodiscard]] Warnings advise_on_spec(const ProblemSpec& spec);
 
 /// Units of a small table that do not fit: a term of a derivative that is not in the unit of its state by
@@ -19,15 +19,16 @@ namespace coordreq {
 /// than a third of their domain in a period, or by all of it where limits hold them on both sides.
 [[nodiscard]] Warnings advise_on_units(const ProblemSpec& spec, const std::vector<StateMotion>& motion);
 
-/// What posts show: states that move less than a cell in a period; sides left at the default `unsafe` through
-/// which pairs of safe cells are blocked. @pre the context is set up. Cost: a pass over tables and S
+/// Warnings that follow from posts: states that move less than a cell in a period; sides left at the default
+/// `unsafe` through which pairs of safe cells are blocked. @pre the context is set up. Cost: a pass over
+/// tables and S
 [[nodiscard]] Warnings advise_on_posts(const AnalysisContext& context,
                                        const std::vector<StateMotion>& motion);
 
-/// What the answer shows: nothing that can be kept safe, or no silence at all, with what would help. For that
-/// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells, as
-/// far as a fixed amount of work goes: the same on every machine. A relaxed problem that cannot be worked out
-/// is passed over. @pre K and the layers are there
+/// Warnings that follow from K and the delays: K is empty, or no cell tolerates any silence, with the changes
+/// that would help. To find these, one rule, disturbance, error or step after the other is relaxed on a copy
+/// with at most some 10^5 cells, within a fixed amount of work: the same on every machine. A relaxed problem
+/// that cannot be analysed is passed over. @pre K and the layers are there
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
 
 /// All that is known without the answer; what posts show only where they are few. @param motion of the spec

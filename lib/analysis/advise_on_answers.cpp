@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::int64_t kMostCells = 100'000;
 // Work is counted in units of about a nanosecond: on one core the examples took 0.3 to 3 for each.
-/// Of all trials together.
+/// The work of all trials together.
 constexpr double kMostWork = 4e9;
 /// A visit of a cell costs so much, and for each joint input so much more: little where many inputs move a
 /// row alike, more where what they do is added up cell by cell.
@@ -128,7 +128,7 @@ std::vector<Relaxation> relaxations(const ProblemSpec& spec) {
   return all;
 }
 
-/// What is wrong with an answer. In the order of what must be mended first.
+/// The fault of an answer, in the order in which faults must be mended.
 enum class Fault : std::uint8_t { nothing, no_silence, empty };
 
 Fault fault_of(const Answers& answers, std::size_t partition) {
@@ -139,7 +139,7 @@ Fault fault_of(const Answers& answers, std::size_t partition) {
 
 struct OutOfWork {};
 
-/// What trials may cost: a count of what is done, so that no clock has a say in what is tried.
+/// The work that trials may take: counted, so that no clock decides which are tried.
 class WorkLimit {
  public:
   /// @throws OutOfWork
@@ -203,7 +203,7 @@ Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
   return fault_of(answers, 0);
 }
 
-/// Of the relaxations, tried one by one, which helped.
+/// The relaxations that helped, of those tried one by one.
 struct Trials {
   std::vector<std::string> helped;
   std::size_t tried = 0;
@@ -236,7 +236,7 @@ std::string place_of_trials(const CoarseCopy& copy) {
 constexpr std::string_view kAskExplain =
     "; a finer grid may (--refine 4), and 'coordreq explain' shows what goes wrong at a state";
 
-/// What would help, as the end of a sentence. @param otherwise is added if nothing does
+/// The changes that would help, as the end of a sentence. @param otherwise is added if there are none
 std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault, std::string_view otherwise,
                      ThreadTeam& team) {
   const double most_entries = kMostWorkOfTables / work_of_entry(spec);

@@ -62,8 +62,8 @@ void advise_on_input_grids(const ProblemSpec& spec, const Node& root, Warnings& 
 
 using Words = std::set<std::string>;
 
-/// Of all texts below a value that may be expressions. A name of something else that looks like one hides at
-/// most a warning.
+/// Adds the words of all texts below a value that may be expressions. A text that only looks like one hides
+/// at most a warning.
 void add_words(const Json& value, Words& words) {
   static const Words kPlain = {"name", "unit", "description", "$schema", "file"};
   if (value.is_string()) words.merge(names_in(value.get<std::string>()));
@@ -74,7 +74,7 @@ void add_words(const Json& value, Words& words) {
     if (!kPlain.contains(key)) add_words(member, words);
 }
 
-/// What the parts of a spec that mean something mention, and what that mentions in turn.
+/// The names that a spec uses, directly or through definitions.
 Words used_names(const Json& root) {
   Words used;
   for (const auto& [key, part] : root.items()) {

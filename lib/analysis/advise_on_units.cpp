@@ -13,7 +13,7 @@
 namespace coordreq {
 namespace {
 
-/// What is known of the unit of a number.
+/// The unit of a number, as far as known.
 struct Measure {
   UnitValue unit;
   std::string text;        ///< as users write it

@@ -14,7 +14,7 @@ void append(std::vector<Stage>& stages, std::vector<Stage> more) {
   for (Stage& stage : more) stages.push_back(std::move(stage));
 }
 
-/// What the first process has read.
+/// Tells all processes the controller that the first one has read.
 void share_listed(Ranks& ranks, ListedController& listed) {
   const auto text = std::as_bytes(std::span(listed.sha256));
   const Bytes sum = ranks.from_first({text.begin(), text.end()});

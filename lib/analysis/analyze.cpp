@@ -38,14 +38,15 @@ void open_checkpoint(const ProblemSpec& spec, const AnalysisOptions& options, St
   checkpoint.emplace(*options.checkpoint, spec, listener, options.ranks);
 }
 
-/// What one of several processes may use, and has used before anything else.
+/// Memory that one of several processes may use, and that it has used before any work.
 struct RankMemory {
   std::optional<std::uint64_t> limit;
   bool saves = false;  ///< a checkpoint
   double before = memory_of_program() + (saves ? kCheckpointBytes : 0);
 };
 
-/// As soon as it is known who holds what. Together. @throws LimitError
+/// Compares the memory of each rank with its limit; called once the rows are divided. Together.
+/// @throws LimitError
 void check_rank_memory(const AnalysisContext& context, const RankMemory& memory, int threads) {
   if (!memory.limit || !context.share) return;
   std::int64_t held = 0;
@@ -129,7 +130,7 @@ void write(const std::string& path, const Answers& answers, StageReporter& repor
   write_results(path, answers.context.spec, values, team, ranks ? &*ranks : nullptr);
 }
 
-/// What each answer says of itself. @param work what fixed points took
+/// The members of all answers. @param work takes the counts of fixed points
 Json summarise(const Answers& answers, Json& work) {
   Json summary;
   for (const Answer& answer : all_answers()) answer.summarise(answers, summary, work);

@@ -27,7 +27,7 @@ struct AnalysisOptions {
   std::function<void(const std::string&)> notice;  ///< a line for the user; may be empty
   /// The processes that share the work, each of which calls analyze() with the same spec; null: there is one.
   Ranks* ranks = nullptr;
-  /// Of several processes what each may use, in bytes; looked at as soon as it is known who holds what.
+  /// Memory that each of several processes may use, in bytes; compared as soon as the rows are divided.
   std::optional<std::uint64_t> max_memory;
 };
 
@@ -45,7 +45,7 @@ struct AnalysisOptions {
 [[nodiscard]] Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& team);
 [[nodiscard]] Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team);
 
-/// What `validate` prints, known before the analysis runs.
+/// The report of `validate`, known before the analysis runs.
 struct SpecReport {
   struct State {
     std::string name;
@@ -90,14 +90,14 @@ struct SpecReport {
 [[nodiscard]] SpecReport inspect(const Model& model, int threads);
 [[nodiscard]] SpecReport inspect(const ProblemSpec& spec, int threads);
 
-/// What the fullest of several processes would have.
+/// The rows and the memory of the fullest of several processes.
 struct FullestRank {
   std::int64_t own_rows = 0;
   std::int64_t ghost_rows = 0;
   std::uint64_t memory_bytes = 0;
 };
 
-/// Of memory, in bytes; empty: none.
+/// Limits of memory, in bytes; empty: none.
 struct RankLimits {
   std::optional<std::uint64_t> of_rank;  ///< of each of the processes
   std::optional<std::uint64_t> here;     ///< of this one: what is not divided is made here

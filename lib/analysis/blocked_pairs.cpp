@@ -49,7 +49,8 @@ class PairCounter {
  private:
   static constexpr std::int64_t kMost = std::int64_t{1} << 22;
 
-  /// How many numbers place_of() has; 0 where it says too little, or they are too many to be remembered.
+  /// Number of values of place_of(); 0 where place_of() does not tell enough, or they are too many to be
+  /// kept.
   [[nodiscard]] std::size_t places() const {
     const TransitionTable& table = abstraction_.tables[i_];
     if (context_.pairs.admissible() != nullptr || table.is_sum()) return 0;

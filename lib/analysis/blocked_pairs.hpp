@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// How many pairs of a safe cell and a joint input are blocked at a side of the domain.
+/// The number of pairs of a safe cell and a joint input that are blocked at a side of the domain.
 struct BlockedPairs {
   std::int64_t pairs = 0;
   bool is_all = true;  ///< else there may be more: the search was broken off after some millions

@@ -26,7 +26,7 @@ std::string section_name(std::size_t record) {
   return fmt::format("stage{}", record);
 }
 
-/// What an object says under a key; empty if that is no text that can be printed in a line.
+/// The text under a key of an object; empty if it cannot be printed on one line.
 std::string text_of(const Json& object, const char* key) {
   const auto found = object.find(key);
   const std::string text = found != object.end() && found->is_string() ? found->get<std::string>() : "";
@@ -196,7 +196,7 @@ StageStore::Kept Checkpoint::take(const Serialise& load) {
   const bool is_finished = next_is_finished_;
   Loading archive(*this);
   load(archive);
-  // What was under way is the last that the file has.
+  // The work under way is the last record of the file.
   if (!next_record()) close();
   if (!is_finished && reader_)
     refuse(fmt::format("continues after the stage '{}', which is not finished", stage_));
@@ -214,7 +214,7 @@ void Checkpoint::step(const Serialise& save) {
   this->save(&record);
 }
 
-/// As long as there is more to take up, a new file would hold less than the old one.
+/// Not while there is more to take up: a new file would hold less than the old one.
 bool Checkpoint::is_due() const {
   if (reader_) return false;
   if (options_.every_seconds <= 0) return true;
@@ -247,7 +247,7 @@ void Checkpoint::replace(const Record* under_way) {
   commit(output);
 }
 
-/// Whatever fails in one process, all of them hear of it.
+/// Replaces the file; if one process fails, all of them learn of it.
 void Checkpoint::replace_together(const Record* under_way) {
   std::optional<OutputFile> output;
   std::optional<CheckpointWriter> file;

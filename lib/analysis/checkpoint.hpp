@@ -31,8 +31,8 @@ namespace coordreq {
 /// 4. Saving takes at most a tenth of the time, however long it takes. Where it fails, work goes on.
 /// 5. One process at a time has the file, from the construction of this object on.
 ///
-/// Of several processes it is a folder with a manifest and parts (see CheckpointParts), and all that is done
-/// is done together. The first one has the manifest, decides when to save, and tells the user.
+/// The checkpoint of several processes is a folder with a manifest and parts (see CheckpointParts), and they
+/// call all functions together. The first one has the manifest, decides when to save, and tells the user.
 class Checkpoint : public StageStore {
  public:
   struct Listener {
@@ -84,7 +84,7 @@ class Checkpoint : public StageStore {
   void commit(OutputFile& output);
   [[noreturn]] void refuse(const std::string& reason) const;
 
-  /// What it belongs to.
+  /// The problem that the checkpoint belongs to.
   struct Identity {
     std::string spec;        ///< SHA-256
     std::string controller;  ///< likewise, empty without one

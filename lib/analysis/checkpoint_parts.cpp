@@ -31,7 +31,7 @@ NumberRows rows_of_digests(const std::string& digests) {
                      static_cast<std::int64_t>(digests.size()) / kLength, kLength);
 }
 
-/// What an object says under a key; 0 if that is no integer.
+/// The integer under a key of an object; 0 if it is none.
 std::int64_t integer_of(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
@@ -73,7 +73,7 @@ bool CheckpointParts::agree(bool is_well) {
   const auto count = static_cast<std::size_t>(ranks_->count()),
              rank = static_cast<std::size_t>(ranks_->rank());
   next_ = {.number = set_.number + 1, .bounds = {}, .digests = std::vector<std::string>(count)};
-  // Of each process the end of its rows and the digest, and how many have failed.
+  // [process] the end of its rows and the digest; then the number of processes that have failed.
   constexpr std::size_t kOfEach = 1 + kDigestNumbers;
   std::vector<std::int64_t> told(kOfEach * count + 1, 0);
   if (is_well) {

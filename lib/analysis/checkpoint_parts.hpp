@@ -17,7 +17,7 @@
 
 namespace coordreq {
 
-/// What it is called in messages, and how names of unfinished files end.
+/// The name of a checkpoint in messages, and the end of names of unfinished files.
 inline constexpr const char* kCheckpointName = "the checkpoint";
 inline constexpr const char* kUnfinished = ".new";
 
@@ -45,7 +45,7 @@ class CheckpointParts {
 
   /// Together: says whether all of that has gone well here. @returns whether it has everywhere
   [[nodiscard]] bool agree(bool is_well);
-  /// What the manifest says of the parts that all have agreed on.
+  /// Writes into the manifest the parts that all processes have agreed on.
   void describe(CheckpointWriter& manifest) const;
   /// Together: the new parts count, or do not; those that do not count are removed.
   void settle(bool is_kept);

@@ -63,7 +63,7 @@ void regrid(StateSpec& state, const Rational& factor) {
 
 std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t partition, std::int64_t most_cells,
                                       double most_entries) {
-  // What is undecided, and so what memories keep, follows from the grid.
+  // Which conditions are undecided, and so the values of memories, follows from the grid.
   if (spec.controller.file || !spec.memory.empty()) return std::nullopt;
   for (std::int64_t factor = 1; factor <= 4096; factor = factor < 4 ? factor + 1 : factor * 3 / 2) {
     CoarseCopy copy{.spec = spec, .factor = factor};

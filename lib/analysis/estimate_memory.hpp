@@ -18,21 +18,21 @@ namespace coordreq {
 /// @param threads that will work, none of which is there yet; 0: all cores
 [[nodiscard]] double estimate_memory(const Model& model, int threads);
 
-/// The same of one of several processes that share the work.
-/// @param before what it holds before any of it, as memory_of_program() tells
+/// estimate_memory() of one of several processes that share the work.
+/// @param before bytes that the process holds before the work, see memory_of_program()
 [[nodiscard]] double estimate_memory_of_rank(const Model& model, int threads, double before,
                                              const RowFractions& part);
-/// What an MPI takes, measured with Open MPI 4.1, in bytes.
+/// Memory of the MPI library, measured with Open MPI 4.1, in bytes.
 inline constexpr double kMpiBytes = 11.0 * 1024 * 1024;
-/// What stands in the buffers of a checkpoint: a part of a list, and what the library keeps of its chunks.
+/// Memory of the buffers of a checkpoint, in bytes: a part of a list, and the chunks that zlib holds.
 inline constexpr double kCheckpointBytes = 4.5 * 1024 * 1024;
 
 /// @param needed bytes @param by_whom "on the fullest of 8 ranks, ", or nothing
 /// @throws LimitError with the two if more is needed than the limit
 void check_memory_limit(const ProblemSpec& spec, double needed, double limit, const std::string& by_whom);
 
-/// How many threads may work: as many as were asked for, or, where memory is short, as many as there is room
-/// for. @param threads 0: all cores @param saves whether the work will be saved in a checkpoint now and then
+/// The number of threads that there is memory for, at most `threads`. @param threads 0: all cores @param
+/// saves whether the work will be saved in a checkpoint now and then
 /// @throws LimitError with the estimate if there is no room for one
 [[nodiscard]] int threads_within(const Model& model, std::optional<std::uint64_t> limit, int threads,
                                  bool saves);

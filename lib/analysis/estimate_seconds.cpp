@@ -26,7 +26,7 @@ constexpr double kPatience = 2;
 /// By which powers of the number of cells work grows: equal work is done once, so that it may be few.
 constexpr double kLeastPower = 0.3, kMostPower = 1.1;
 
-/// What a copy has, and took.
+/// The size of a copy, and the seconds that it took.
 struct Measured {
   double cells = 0, entries = 0;
   double tables = 0, rest = 0;  ///< seconds
@@ -46,7 +46,7 @@ double entries_of(const Model& model) {
                          [](double sum, const TableShape& own) { return sum + own.entries; });
 }
 
-/// Of all threads; other programs do not count.
+/// Processor time of all threads of this process, in seconds.
 double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -56,7 +56,7 @@ struct GivenUp {
   double part;
 };
 
-/// As long as it lives, loops of the team are given up at that time.
+/// Loops of the team are given up at that time, as long as this object lives.
 class Deadline {
  public:
   Deadline(ThreadTeam& team, double seconds) : team_(team) {

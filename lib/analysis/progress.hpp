@@ -5,7 +5,7 @@
 
 namespace coordreq {
 
-/// What is under way. Either a fixed point that sweeps over the grid again and again (`sweep` is not 0), or
+/// The work under way. Either a fixed point that sweeps over the grid again and again (`sweep` is not 0), or
 /// passes over something (`all` is not 0), or work of which no more is known.
 struct Progress {
   /// "controller" (if there is a file with one), "regions" (if there are requirements), "abstraction", "safe

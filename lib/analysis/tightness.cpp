@@ -26,9 +26,9 @@ constexpr std::int64_t kPairs = 64;
 /// Fractions of whose multiples no two are near one another: the golden ratio and the root of 2.
 constexpr double kCellStride = 0.6180339887498949;
 constexpr double kInputStride = 0.4142135623730951;
-/// What rounding may have added to a solution, in steps.
+/// The error of a solution by rounding, in steps.
 constexpr double kSampleSlack = 1e-9;
-/// For so many of the widest posts it is tried what helps.
+/// Number of the widest posts on which remedies are tried.
 constexpr std::size_t kTried = 6;
 constexpr std::int64_t kMoreEffort = 8;
 
@@ -56,7 +56,7 @@ std::optional<std::vector<Interval>> boxes_of(const std::vector<GridDimension>& 
   return result;
 }
 
-/// How many cells a hull of solutions meets.
+/// Number of cells that a hull of solutions meets.
 std::int64_t cells_needed(const GridDimension& dimension, const Interval& ends) {
   const double step = nearest_double(dimension.step);
   const double first = nearest_double(dimension.first);
@@ -141,7 +141,7 @@ std::vector<Remedy> remedies(const ProblemSpec& spec) {
   return all;
 }
 
-/// What the widest posts of the sample have on average; nothing where one has none.
+/// The mean excess of the widest posts of the sample with a remedy; nothing if it cannot be told of one.
 std::optional<double> excess_with(const ProblemSpec& spec, const Remedy& remedy,
                                   std::span<const Tightness::Post> posts) {
   ProblemSpec copy = spec;

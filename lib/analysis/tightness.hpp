@@ -10,10 +10,10 @@
 
 namespace coordreq {
 
-/// How many cells more posts have in a dimension than solutions need that start at corners, middles of faces
-/// and the centre of their cell, under disturbances that stay where they are: at their lower ends, in the
-/// middle, at their upper ends. Solutions are followed without a guarantee; a post that is as tight as can be
-/// may have a cell more, as they are few.
+/// The excess of posts: the cells that they have in a dimension beyond those that solutions reach from
+/// corners, middles of faces and the centre of their cell, under disturbances that stay where they are: at
+/// their lower ends, in the middle, at their upper ends. Solutions are followed without a guarantee; a post
+/// that is as tight as can be may have a cell more, as they are few.
 struct Tightness {
   /// A post that was looked at.
   struct Post {
@@ -32,7 +32,8 @@ struct Tightness {
   [[nodiscard]] double share() const;
 };
 
-/// Of a sample of at most some hundred posts, the same every time and for any number of processes. Together.
+/// The tightness of a sample of at most some hundred posts, the same sample every time and for any number of
+/// processes. Together.
 /// @returns nothing if every post is an exact hull. @pre the context is set up
 [[nodiscard]] std::optional<Tightness> find_tightness(const AnalysisContext& context);
 

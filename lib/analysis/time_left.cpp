@@ -64,7 +64,7 @@ void TimeLeft::update_sweep(const Progress& progress) {
   }
 }
 
-/// What is left of this sweep at the rate of its beginning, and then a geometric series.
+/// The rest of this sweep at the rate of its beginning, and then a geometric series.
 std::optional<double> TimeLeft::rows_to_come(const Progress& progress) const {
   if (visited_in_last_ <= 0 || !share_ || *share_ < 0.1) return std::nullopt;
   const double whole = static_cast<double>(progress.visited) / *share_;

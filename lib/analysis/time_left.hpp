@@ -22,7 +22,7 @@ class TimeLeft {
   [[nodiscard]] std::optional<double> seconds() const { return left_; }
   /// Seconds since it began.
   [[nodiscard]] double elapsed() const { return now_ - begin_; }
-  /// What share of the pass or of the sweep is done, in [0, 1]; none if that is not known.
+  /// The share of the pass or of the sweep that is done, in [0, 1]; none if not known.
   [[nodiscard]] std::optional<double> share() const { return share_; }
 
  private:

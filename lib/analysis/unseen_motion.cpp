@@ -32,7 +32,7 @@ constexpr std::int64_t kMostOfPost = 4096;
 constexpr double kGoldenRatio = 0.6180339887498949;
 constexpr double kPathTolerance = 1e-6;
 
-/// What was found: where it begins, and where it is outside S.
+/// A passage that was found: its beginning, and the state outside S.
 struct Passage {
   std::vector<double> begin;  ///< [state]
   std::vector<double> there;
@@ -96,7 +96,7 @@ class PassageSearch {
     return step;
   }
 
-  /// Of all cells the k-th.
+  /// The k-th of all cells.
   [[nodiscard]] std::int64_t place_of(std::int64_t k) const {
     std::int64_t place = 0;
     for (std::size_t i = grid_.size(); i-- > 0; k /= counts_[i]) place += k % counts_[i] * grid_.stride(i);

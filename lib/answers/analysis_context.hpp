@@ -62,8 +62,9 @@ struct AnalysisContext {
   std::optional<Tiles> tiles;  ///< in which equal work is found; nothing where a sample has little of it
   Tiles::Numbers
       tiles_with_over;  ///< [tile] equal numbers where the same cells count as T, too; empty if none do
-  /// That can be exchanged, in S too; two or more, or none. Of several processes none: on three vehicles it
-  /// saved 7 % of the time of two processes and 12 % of eight, which then hold the rows of all orders.
+  /// Agents that can be exchanged, in S too; two or more, or none. Of several processes none: on three
+  /// vehicles it saved 7 % of the time of two processes and 12 % of eight, which then hold the rows of all
+  /// orders.
   std::vector<AbstractAgent> like_agents;
   std::optional<CellOrder> order;
 

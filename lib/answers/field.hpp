@@ -159,8 +159,8 @@ struct FieldAsked {
 
 /// How commands show a field over cells; a command whose member is empty does not show it.
 struct FieldShown {
-  /// As a column of tables over cells (CSV, VTK): "delay", and "delay:alone" where it is over /partition, or
-  /// over other names.
+  /// Name of its column in tables over cells (CSV, VTK): "delay", and "delay:alone" where it is over
+  /// /partition, or over other names.
   std::string column = {};
   /// In a table the negative value that is worse than every number of steps, but better than lower values; 0:
   /// none.
@@ -183,7 +183,7 @@ struct Field {
   std::int64_t least = 0, most = kLargestValue;  ///< values of a field of integers
   std::vector<FieldAttribute> attributes = {};   ///< in the order in which they are written
   FieldShown shown = {};
-  /// Of steps over /partition, the path of their F: where F is negative, values of `max_delay` are lower
+  /// Path of F, for steps over /partition: where F is negative, values of `max_delay` are lower
   /// bounds.
   std::string fixed_points = {};
 };

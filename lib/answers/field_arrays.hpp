@@ -47,7 +47,7 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
 
 /// The layers T(0), ..., T(F) of one partition as ascending lists of linear indices, one after the other
 /// (contract `/layers/PARTITION`): where each list begins, F + 2 entries; and the lists, uint32 or uint64.
-/// Those of one partition at a time are in memory (LastValueCache).
+/// The lists of one partition at a time are in memory (LastValueCache).
 [[nodiscard]] std::vector<std::uint64_t> layer_starts(const DelayLayers& layers);
 using CellsCache = LastValueCache<const DelayLayers*, FillArray>;
 [[nodiscard]] ResultArray layer_cells(const DelayLayers& layers, const CellOrder& order,

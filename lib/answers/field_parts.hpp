@@ -15,7 +15,7 @@ namespace coordreq {
 [[nodiscard]] FieldAttribute flags(std::vector<FieldFlag> values);
 /// The attribute `cells`: the number of cells.
 [[nodiscard]] FieldAttribute counted_cells();
-/// The same as a list of `count` numbers; nothing if an attribute would be too large.
+/// The attribute `cells` as a list of `count` numbers; nothing if the attribute would be too large.
 [[nodiscard]] std::vector<FieldAttribute> counted_cells(std::size_t count);
 /// One list of attributes behind the other.
 [[nodiscard]] std::vector<FieldAttribute> operator+(std::vector<FieldAttribute> first,

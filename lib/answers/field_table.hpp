@@ -16,7 +16,7 @@ namespace coordreq {
 /// the file.
 [[nodiscard]] Fields result_fields(const ProblemSpec& spec);
 
-/// The same in the order of the answers.
+/// All fields in the order of the answers.
 [[nodiscard]] Fields answer_fields(const ProblemSpec& spec);
 
 /// The values of all fields. The arrays refer to the answers, which must outlive the writing.

@@ -28,7 +28,7 @@ struct NumberRows {
   }
   [[nodiscard]] std::int64_t row_bytes() const { return row_length * number_bytes; }
 
-  /// Some of them.
+  /// The rows [begin, end).
   [[nodiscard]] NumberRows part(std::int64_t begin, std::int64_t end) const {
     NumberRows result = *this;
     result.rows = end - begin;
@@ -62,12 +62,12 @@ template <class Number>
           nullptr};
 }
 
-/// What a type has to keep, told once: its serialise() hands the same lists to an archive in the same order
-/// whether they are to be saved or loaded.
+/// Saves or loads the state of an object. Its serialise() hands the same lists to an archive in the same
+/// order whether they are to be saved or loaded.
 ///
-/// Nothing that is loaded is trusted. Lists have their sizes before they are loaded, from what is known
-/// without the archive, and an archive that holds another number of them, or numbers of another kind, is
-/// refused. What the numbers may be is up to serialise(), which says so by expect().
+/// Loaded numbers are not trusted. Lists have their sizes before they are loaded, and an archive with another
+/// number of numbers, or numbers of another kind, is refused. Which values are possible is up to serialise(),
+/// which checks them by expect().
 class Archive {
  public:
   virtual ~Archive() = default;
@@ -75,8 +75,8 @@ class Archive {
 
   /// Saves the numbers, or loads them to where they stand.
   virtual void rows(const NumberRows& rows) = 0;
-  /// The same for rows of a grid that several processes may have divided between them.
-  /// @param own which ones this process answers for @param held which ones it has to know, ascending
+  /// rows() for rows of a grid that several processes may have divided between them.
+  /// @param own the rows that this process answers for @param held the rows that it has to know, ascending
   virtual void grid_rows(const NumberRows& all, ThreadTeam::Range /*own*/,
                          std::span<const ThreadTeam::Range> /*held*/) {
     rows(all);

@@ -2,8 +2,8 @@
 
 namespace coordreq {
 
-/// What the program does to save work, each with a switch: tests turn them off one at a time and compare, and
-/// `scripts/scaling --switches` measures what each is worth. Users have no hold on them.
+/// The fast paths of the program, each with a switch: tests turn them off one at a time and compare results,
+/// and `scripts/scaling --switches` measures how much time each saves. Users cannot change them.
 ///
 /// All are on. A switch is read where a path is chosen and is written before work begins, by one thread.
 struct FastPaths {
@@ -70,7 +70,7 @@ inline constexpr FastPath kFastPaths[] = {
 };
 static_assert(sizeof(kFastPaths) / sizeof(FastPath) == sizeof(FastPaths), "each switch has a name");
 
-/// Those of this process.
+/// The switches of this process.
 [[nodiscard]] inline FastPaths& fast_paths() {
   static constinit FastPaths paths;
   return paths;

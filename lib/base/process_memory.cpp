@@ -17,7 +17,7 @@ namespace {
 /// Parts of the program and its libraries come into memory only when they are used: of their code any work
 /// needs about so much of the whole, and they keep something for themselves. Measured.
 constexpr double kUsedCode = 0.72, kOwnBytes = 1.5 * 1024 * 1024;
-/// Of a thread: the part of its stack that is touched, and what the allocator keeps for it.
+/// Memory of a thread: the part of its stack that is used, and the reserve of the allocator.
 constexpr double kThreadBytes = 108.0 * 1024;
 
 std::optional<rlimit> limit_of_data() {
@@ -33,7 +33,7 @@ void set_limit_of_data(rlim_t wanted) {
   static_cast<void>(setrlimit(RLIMIT_DATA, &*limit));
 }
 
-/// What is in memory of files, or will be.
+/// The parts of files that are in memory, or will be.
 double bytes_of_files() {
   const auto code = static_cast<double>(status_bytes("VmExe") + status_bytes("VmLib"));
   return std::max(static_cast<double>(status_bytes("RssFile")), kUsedCode * code);

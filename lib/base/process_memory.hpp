@@ -4,18 +4,17 @@
 #include <optional>
 #include <string>
 
-// What this process takes, and what it may take: a promise that is kept twice. Whoever begins something large
-// asks whether there is room for it, and is refused at once if there is none (expect_memory()); and as that
-// is told before anything is there, the system refuses what would go beyond the limit all the same
-// (hold_to_memory()).
+// The memory of this process and its limit, which is kept twice: code that begins large work asks first
+// whether there is room for it, and is refused at once if there is none (expect_memory()); and because that
+// is an estimate, the system refuses memory beyond the limit (hold_to_memory()).
 namespace coordreq {
 
-/// What this process holds now, and the parts of the program and its libraries that any work still brings
-/// into memory, in bytes.
+/// Memory that this process holds now, with the parts of the program and its libraries that any work still
+/// brings into memory, in bytes.
 [[nodiscard]] double memory_of_program();
-/// How many are meant. @param threads 0: all cores
+/// The number of threads that `threads` stands for. @param threads 0: all cores
 [[nodiscard]] int all_threads(int threads);
-/// What so many threads take before they do anything, in bytes; the first one is there already.
+/// Memory of `threads` threads before they do any work, in bytes; the first thread is there already.
 /// @param threads 0: all cores
 [[nodiscard]] double memory_of_threads(int threads);
 
@@ -28,23 +27,22 @@ namespace coordreq {
 ///   is more than the limit
 void check_memory_need(const std::string& subject, double needed, double limit,
                        const std::string& by_whom = "");
-/// The same of `more` bytes beyond memory_of_program(). @param limit none: nothing is refused
+/// check_memory_need() for `more` bytes beyond memory_of_program(). @param limit none: nothing is refused
 void expect_memory(const std::string& subject, double more, std::optional<std::uint64_t> limit);
 
-/// What work takes beyond memory_of_program(), in bytes.
+/// The memory that a piece of work takes beyond memory_of_program(), in bytes.
 struct MemoryDemand {
   double once = 0;
   double of_thread = 0;  ///< more, for each thread
 };
-/// How many threads may work on what takes so much: as many as were asked for, or, where memory is short, as
-/// many as there is room for. @param threads 0: all cores
+/// The number of threads that there is memory for, at most `threads`. @param threads 0: all cores
 /// @throws LimitError if there is no room for one, as check_memory_need()
 [[nodiscard]] int threads_within(const std::string& subject, const MemoryDemand& demand, int threads,
                                  std::optional<std::uint64_t> limit);
 
-/// From now on the system refuses this process what would take it beyond so many bytes and a tenth:
-/// std::bad_alloc is thrown then. Little more than what it holds already is always granted, so that it can
-/// say so. Stacks of a ThreadTeam are made room for. Without effect under a sanitiser.
+/// From now on the system refuses this process memory beyond `bytes` and a tenth: std::bad_alloc is thrown
+/// then. A little more than the process holds already is always granted, so that it can report the error.
+/// Stacks of a ThreadTeam are not counted. Without effect under a sanitiser.
 void hold_to_memory(std::uint64_t bytes);
 /// Whether it is held to a limit.
 [[nodiscard]] bool is_held_to_memory();

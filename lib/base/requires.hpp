@@ -2,9 +2,9 @@
 
 #include <cassert>
 
-/// What a function needs from its caller, at the top of its body: checked where assertions are on (`dev`, and
-/// under sanitisers), and ends the program where it is not so. In a release the condition is compiled and
-/// never evaluated.
+/// A precondition, at the top of the body of a function: checked where assertions are on (`dev`, and under
+/// sanitisers), and ends the program where it does not hold. In a release the condition is compiled and never
+/// evaluated.
 ///
 /// In docstrings `@pre` says it in words, and `@pre unchecked:` what cannot be checked cheaply, such as that
 /// an argument outlives an object.

@@ -30,11 +30,11 @@ class StageTimer {
 /// left. Without effect where the system cannot do that.
 void reset_peak_memory();
 
-/// What this process has in memory now, in bytes; 0 where the system does not tell.
+/// Memory of this process now, in bytes; 0 where the system does not tell.
 [[nodiscard]] std::uint64_t resident_bytes();
 
-/// What /proc/self/status says of this process, in bytes: "VmData" has what a limit of data is about,
-/// "RssAnon" and "RssFile" what is in memory; 0 where the system does not tell.
+/// An entry of /proc/self/status, in bytes: "VmData" is the size that a limit of data counts, "RssAnon" and
+/// "RssFile" are in memory; 0 where the system does not tell.
 [[nodiscard]] std::uint64_t status_bytes(const std::string& key);
 
 /// The largest resident set of this process so far, or since reset_peak_memory(), in bytes; 0 where the

@@ -27,12 +27,13 @@ enum class Policy : std::uint8_t {
   prefer,       ///< what their `prefer` likes best
 };
 
-/// What a closed loop runs on. @pre unchecked: all parts belong together and outlive whoever is handed this.
+/// The data of a closed loop. @pre unchecked: all parts belong together and outlive the users of this object.
 struct LoopProblem {
   const ProblemSpec* spec = nullptr;
   const Abstraction* abstraction = nullptr;
   const PartitionSpec* partition = nullptr;
-  /// What agents go by: in each cell the last one that holds there. The first is that of the delays.
+  /// The policies of the agents: in each cell the last one that holds there counts. The first is that of the
+  /// delays.
   std::vector<AnswerPolicy> policies;
   /// [path][cell] steps, as the results file has them, of the delays and aims of the policies.
   std::map<std::string, std::span<const std::int32_t>> values;
@@ -49,7 +50,7 @@ struct LoopProblem {
   [[nodiscard]] std::span<const std::int32_t> delay() const { return values.at(policies.front().delay); }
 };
 
-/// What nature does in one period, and the measuring at its end.
+/// The disturbances of one period, and the measurement errors at its end.
 struct Nature {
   std::vector<Rational> disturbance;  ///< one a disturbance, constant within the period
   std::vector<Rational> error;        ///< one a state: measured less true
@@ -77,7 +78,7 @@ class ActionChooser {
     return cell_policies_[policy]->holds(cell);
   }
 
-  /// What agents go by, and for how many steps they are still silent; at 0 they coordinate.
+  /// The policy that agents follow, and the steps for which they are still silent; at 0 they coordinate.
   struct Turn {
     std::size_t policy = 0;
     std::int32_t countdown = 0;
@@ -140,7 +141,7 @@ class ActionChooser {
   std::vector<Rational> no_error_;  ///< zeros
   Numbers nominal_parts_;           ///< by input: what its nominal value adds to a joint input
   std::vector<std::vector<double>> input_values_;
-  /// Of the cell at work, what each class can choose from, or all as one if coordinated: joint input parts.
+  /// [class], or one list if coordinated: parts of joint inputs that may be chosen in the cell at work.
   std::vector<Numbers> choices_;
   std::vector<Rational> slots_;
   std::vector<double> doubles_;

@@ -27,10 +27,9 @@ using ActionSets = std::vector<std::vector<bool>>;
 
 /// Bytes of the finite abstraction of a file, as it is read or worked out whole.
 [[nodiscard]] double abstraction_bytes(const ResultsReader& results);
-/// What a CellController takes: at most, or where a cell and its like are asked for, with what the posts of
-/// one cell reach.
+/// Memory of a CellController, in bytes: of all cells, or of one cell with those that its posts reach.
 [[nodiscard]] double controller_bytes(const ResultsReader& results, bool for_all_cells);
-/// The same, with reading, and what threads take that work out posts.
+/// controller_bytes(), with the memory of reading and of threads that compute posts.
 [[nodiscard]] MemoryDemand controller_demand(const ResultsReader& results, bool for_all_cells);
 
 /// The controller C(x) of a results file, and what policies leave of it to classes, one cell at a time
@@ -49,7 +48,7 @@ class CellController : private ByteTables {
   /// Makes ready for all cells, not just a few: reads K and computes the abstraction, if they will be needed.
   void prepare_all();
 
-  /// Those that the answers of the file declare, see answer_policies().
+  /// The policies that the answers of the file declare, see answer_policies().
   [[nodiscard]] const std::vector<AnswerPolicy>& policies() const { return policies_; }
   /// Whether each joint input is in C(x); none is outside K. @throws ResultsError if it cannot be computed
   [[nodiscard]] const std::vector<bool>& joint_inputs(std::int64_t cell);
@@ -58,8 +57,8 @@ class CellController : private ByteTables {
   [[nodiscard]] std::vector<bool> joint_inputs(const AnswerPolicy& policy, std::int64_t cell);
   /// Whether `allow` forbids a joint input at a cell.
   [[nodiscard]] bool forbids(std::int64_t cell, std::int64_t u) { return admissible_.forbids(cell, u); }
-  /// What the policy leaves each class of a partition, or each agent if it is one of these, with so many
-  /// steps of silence left: none outside K, and where the policy does not hold.
+  /// The actions that the policy leaves each class of a partition, or each agent if the policy is one of
+  /// agents, with `countdown` steps of silence left: none outside K, and where the policy does not hold.
   [[nodiscard]] ActionSets actions(const AnswerPolicy& policy, std::size_t partition, std::int64_t cell,
                                    std::int32_t countdown);
   /// The values of a field of integers, of a partition where it is over these.

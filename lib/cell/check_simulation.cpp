@@ -45,7 +45,7 @@ void check_blind(const ProblemSpec& spec, const SimulationOptions& options) {
         "--lossy");
 }
 
-/// What agents are told says what they do; nothing else does then.
+/// Agents who follow rules have no other choice: refuses options that say otherwise.
 void check_silent(const ProblemSpec& spec, const SimulationOptions& options) {
   if (!options.silent) return;
   if (!spec.silence)

@@ -7,7 +7,7 @@
 
 #include "cell/simulate.hpp"
 
-// What is asked of a simulation that the results do not fit.
+// Refuses simulations that do not fit the results file.
 namespace coordreq {
 
 /// @throws UsageError naming an option that the spec, or another option, does not go with

@@ -95,7 +95,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     const bool coordinated = countdown == 0;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error, state.place.cell);
-    // Those that coordinate go by what holds here, whatever the countdown was of that ended here.
+    // Agents that coordinate follow the policy that holds here, whichever countdown ended here.
     if (coordinated) policy = policy_at(state, trace);
     if (has_aim(policy) && trace.arrived) policy = 0;
     const std::optional<std::int64_t> u = chooser_.choose(

@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// What disturbances and measurement errors do from period to period.
+/// The choice of disturbances and measurement errors from period to period.
 enum class Disturbance : std::uint8_t {
   random,    ///< uniform in their ranges
   extremes,  ///< at one end or the other of their ranges, with equal chances
@@ -39,12 +39,12 @@ enum class Outcome : std::uint8_t {
   late,            ///< more steps than promised, and not in the goal
   not_allowed,     ///< ended early in K where silent agents together do what `allow` forbids
   not_followed,    ///< ended early because the next state could not be worked out
-  // Of agents who do what they are told while they are silent:
+  // Outcomes of agents who follow the rules of `silence`:
   left_safe_set,  ///< ended early outside of S, later than promised
   stuck,          ///< ended early, later than promised, because they could not go on as they are told
   broke_promise,  ///< either of these, earlier
 };
-/// Those that contradict the analysis.
+/// Whether an outcome contradicts the analysis.
 [[nodiscard]] constexpr bool is_violation(Outcome outcome) {
   return outcome == Outcome::left_invariant || outcome == Outcome::no_action || outcome == Outcome::late ||
          outcome == Outcome::not_allowed || outcome == Outcome::broke_promise;
@@ -58,7 +58,7 @@ struct RunTrace {
     std::vector<double> state;     ///< the true one
     std::vector<double> measured;  ///< its cell is what agents know
     double margin = 0;             ///< of `safe` at the true state, see Margin
-    /// Of the cell, steps, as LoopProblem has them; kForever in T, kOutsideSafe beyond an unsafe side.
+    /// Delay of the cell in steps, as LoopProblem has it; kForever in T, kOutsideSafe beyond an unsafe side.
     std::int32_t delay = 0;
     std::int32_t arrival = 0;  ///< those to the aim likewise, if there is one; 0 beyond a `goal` side
     /// i of Definition 3: steps that the agents still go on without coordination. kForever where they never
@@ -79,7 +79,7 @@ struct RunTrace {
   [[nodiscard]] std::int64_t coordinated_steps() const;
   /// The most steps in a row without coordination.
   [[nodiscard]] std::int64_t longest_silence() const;
-  /// Of all samples but one that has left safely; infinity if there is none.
+  /// The smallest margin of the samples, without one that has left safely; infinity if there is none.
   [[nodiscard]] double smallest_margin() const;
 };
 

@@ -134,7 +134,7 @@ class Explainer {
     return product;
   }
 
-  /// How many steps are left after a post, and this one: a blocked one leaves none.
+  /// The number of steps that a post leaves, its own included; a blocked one leaves none.
   [[nodiscard]] std::int32_t steps_after(const CellPost& post) {
     if (post.blocked != CellPost::Blocked::no) return 0;
     if (post.all_left) return kNever;

@@ -22,7 +22,7 @@ struct DelayExplanation {
   /// A shortest way out of S on which each class picks from its projection of C(x) as long as that is in K
   /// (find_escape()); none where the delay has no known end.
   std::optional<ResultPath> path;
-  // The rest only in K.
+  // The members below are set only in K.
   std::int64_t together = 0;               ///< |C(x)|
   std::int64_t alone = 0;                  ///< |IND_C(x)|, the product of the projections
   std::vector<std::vector<bool>> actions;  ///< the projections, [class][action]
@@ -42,7 +42,7 @@ struct DelayExplanation {
     std::int32_t delay = 0;
     std::int64_t alone = 0;
   };
-  /// The same of agents who do what they are told, if the spec tells them.
+  /// The explanation for agents who follow the rules of `silence`, if the spec has any.
   struct Silence {
     std::int32_t steps = 0;       ///< as `/silence`
     bool is_lower_bound = false;  ///< likewise
@@ -58,7 +58,7 @@ struct DelayExplanation {
   std::optional<Neighbour> freer_is_shorter;  ///< the nearest, of equals in the first dimension, below first
 };
 
-/// What it takes to explain the delay of a cell, and to tell of it.
+/// Memory of explaining the delay of a cell, and of telling it.
 [[nodiscard]] MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition,
                                           std::int64_t cell);
 /// @param cell its number in the spec's grid @param state in it

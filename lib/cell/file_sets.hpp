@@ -11,12 +11,12 @@
 
 namespace coordreq {
 
-/// What a results file says of all cells, and the posts of its spec, as an analysis has them in memory: S, K
-/// with its collision times, and the delays of one partition; and the silence of agents who are told what to
-/// do, if the spec tells them. States are in the order of the spec; there is no engine.
+/// The values of all cells of a results file, and the posts of its spec, as an analysis has them in memory:
+/// S, K with its collision times, and the delays of one partition; and the silence of agents who follow
+/// rules, if the spec has any. States are in the order of the spec; there is no engine.
 class FileSets {
  public:
-  /// What an object takes.
+  /// Memory of an object, in bytes.
   [[nodiscard]] static double bytes(const ResultsReader& results);
 
   /// @throws ResultsError; SpecError

@@ -12,9 +12,9 @@
 
 namespace coordreq {
 
-/// What a field of steps says of a state of a pair in a fleet (contract, "Fleets"): -2 beyond an unsafe side
-/// of the domain; else kNever beyond a `safe` or `goal` side; else that of its cell, or beyond a `saturate`
-/// or `stop` side of the boundary cell. @pre the field is of steps over partitions
+/// The value of a field of steps for a state of a pair in a fleet (contract, "Fleets"): -2 beyond an unsafe
+/// side of the domain; else kNever beyond a `safe` or `goal` side; else that of its cell, or beyond a
+/// `saturate` or `stop` side of the boundary cell. @pre the field is of steps over partitions
 /// @throws UsageError where a discrete state is not one of its values. @param where for the message
 [[nodiscard]] std::int32_t steps_of_pair(const ResultsReader& results, const Field& field,
                                          std::size_t partition, const std::vector<Rational>& state,

@@ -130,7 +130,7 @@ bool LogJudge::is_next(const JudgedRow& row, const JudgedRow& before) const {
                    row.log.place + ", t");
 }
 
-/// Nothing: some input is not logged, or none of the spec's.
+/// The joint input of the row; nothing if some input is not logged or has no value of the spec.
 std::optional<std::int64_t> LogJudge::joint_input() const {
   std::int64_t u = 0;
   for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -140,7 +140,7 @@ std::optional<std::int64_t> LogJudge::joint_input() const {
   return u;
 }
 
-/// What is logged, as numbers of the spec's values and of joint actions.
+/// Takes the logged inputs as numbers of the spec's values and of joint actions.
 void LogJudge::take_actions(JudgedRow& row) {
   const InputSpace& inputs = results_.inputs();
   values_.assign(inputs.size(), std::nullopt);
@@ -166,7 +166,7 @@ bool LogJudge::is_over(std::int64_t cell) {
   return results_.spec().ends_at_goal && controller_.values(paths::kArrival, partition_)(cell) == 0;
 }
 
-/// Of the cells in K that it may be; outside K nobody promises anything.
+/// Judges the actions by the cells of K that the state may be in; outside K there is no promise.
 void LogJudge::judge_actions(JudgedRow& row) {
   take_actions(row);
   const bool is_complete = std::all_of(values_.begin(), values_.end(), [](Index own) { return !!own; });

@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// What can be wrong with a row of a log.
+/// The findings about a row of a log.
 enum class LogFinding : std::uint8_t {
   outside,          ///< the state is in no cell, and not beyond a `safe` or `goal` side
   unsafe,           ///< not in S
@@ -35,7 +35,8 @@ struct JudgedRow {
   std::int32_t delay = -2;                ///< as in `/delay`; the longest of the cells that it may be
   std::optional<std::int32_t> countdown;  ///< kNever: without end; nothing outside K
   std::optional<bool> fits_model;
-  /// Of a step that does not: the first state that is elsewhere, where it is, and where it could be.
+  /// Of a step that does not fit: the first state that is elsewhere, its value, and the range that it can
+  /// have.
   struct Misfit {
     std::size_t state = 0;
     Rational found, lower, upper;
@@ -48,7 +49,7 @@ struct JudgedRow {
   bool is_silent_too_long = false;
   bool tolerates_less = false;  ///< than the countdown that ran here
 
-  /// Nothing: this cannot be judged here.
+  /// Whether the row has this finding; nothing where it cannot be judged.
   [[nodiscard]] std::optional<bool> found(LogFinding finding) const;
 };
 
@@ -86,7 +87,7 @@ class LogJudge {
   std::vector<InputClass> classes_;
   std::optional<JudgedRow> ahead_;
   bool has_begun_ = false;
-  /// Of the row at work: [input] the place of its value, -1 if it is none of the spec's.
+  /// [input] position of its value in the row at work, -1 if the spec does not have the value.
   std::vector<std::optional<std::int64_t>> values_;
   std::vector<std::optional<std::int64_t>> actions_;  ///< [class] likewise
 };

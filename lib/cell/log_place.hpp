@@ -19,7 +19,7 @@ struct LogPlace {
   /// [dimension] the indices that it may have, the one of `location` first, also beyond the domain; none
   /// where a discrete state has no value of its grid.
   std::vector<std::vector<std::int64_t>> indices;
-  /// Those in the domain that it may lie in, the one of `location` first; outside of the domain none.
+  /// Cells of the domain that the state may lie in, the one of `location` first; none outside of the domain.
   std::vector<std::int64_t> cells;
 
   /// No cell, and not because all is safe there.

@@ -29,7 +29,7 @@ std::optional<std::size_t> LogReader::input_of(const std::string& name) const {
   return static_cast<std::size_t>(found - inputs_.begin());
 }
 
-/// Of two columns of one name nobody knows which is meant.
+/// Refuses two columns of one name.
 void LogReader::check_names() const {
   const std::vector<std::string>& names = states_.extra_names();
   for (std::size_t i = 0; i < names.size(); ++i) {

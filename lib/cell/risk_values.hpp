@@ -19,7 +19,7 @@ using RiskValues = std::vector<std::map<std::string, std::vector<std::int32_t>>>
 /// are to be safest, for each step.
 [[nodiscard]] double risk_of_runs(const ResultsReader& results, std::int64_t cell, std::int64_t steps);
 
-/// What they take, a cell.
+/// Memory of the values of a cell, in bytes.
 [[nodiscard]] double bytes_of_risk_values(const ProblemSpec& spec);
 
 }  // namespace coordreq

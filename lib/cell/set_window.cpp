@@ -14,7 +14,7 @@ struct Stretch {
   std::int64_t length = 0;
 };
 
-/// What has to be read for a range: all of a periodic dimension where it wraps.
+/// The indices that have to be read for a range: all of a periodic dimension where it wraps.
 Stretch stretch_of(const IndexRange& range, std::int64_t count) {
   if (range.last >= count) return {0, count};
   return {range.first, range.last - std::int64_t{range.first} + 1};

@@ -40,7 +40,7 @@ std::int32_t SilenceWatch::steps(std::size_t policy, std::int64_t cell) {
   return steps_[policy](cell);
 }
 
-/// Of the cells that it may be.
+/// The most steps of the cells that the state may be in.
 std::int32_t SilenceWatch::most_steps(std::size_t policy, const LogPlace& place) {
   std::int32_t most = kAsUnsafe;
   for (const std::int64_t cell : place.cells) most = std::max(most, steps(policy, cell));

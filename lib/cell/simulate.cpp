@@ -82,7 +82,7 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
   return safe;
 }
 
-/// That of the delays, with those that are asked for, or else all that are not to be.
+/// The policy of the delays, with the one that is asked for, or else all that need not be asked for.
 std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, const SimulationOptions& options) {
   const std::string asked = options.blind ? "blind" : options.silent ? "silence" : "";
   std::vector<AnswerPolicy> policies = answer_policies(spec);
@@ -101,7 +101,7 @@ std::optional<std::int64_t> silent_steps_of(const SimulationOptions& options) {
   return options.silent_steps.value_or(RunTrace::kForever);
 }
 
-/// Of the fields that a loop looks at.
+/// Paths of the fields that a loop reads.
 std::vector<std::string> loop_paths(const ProblemSpec& spec, const std::vector<AnswerPolicy>& policies) {
   std::vector<std::string> paths;
   for (const AnswerPolicy& policy : policies) {
@@ -117,7 +117,7 @@ std::vector<std::string> loop_paths(const ProblemSpec& spec, const std::vector<A
 /// Tables that are small beside arrays over cells, for many threads.
 class LoadedTables : public ByteTables {
  public:
-  /// Those of one partition.
+  /// Loads the tables of one partition.
   LoadedTables(const ResultsReader& results, const PartitionSpec& partition) {
     const ProblemSpec& spec = results.spec();
     for (std::size_t c = 0; c < partition.classes.size(); ++c) {

@@ -69,7 +69,7 @@ struct Simulation {
 /// @throws UsageError
 [[nodiscard]] std::size_t find_partition(const ProblemSpec& spec, const std::string& name);
 
-/// What these runs take, all of them kept.
+/// Memory of simulate_runs(), with all runs kept.
 [[nodiscard]] MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOptions& options);
 /// Self-triggered closed loops on the system of a results file, from its K, its delays and its abstraction,
 /// which is built again unless it is stored. Writes them to `options.output`, also runs that contradict the

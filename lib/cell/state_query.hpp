@@ -19,7 +19,7 @@ namespace coordreq {
 struct StateAnswer {
   std::vector<Rational> state;
   Location location;
-  // The rest only where the location is a cell.
+  // The members below are set only where the location is a cell.
   /// By path, of S, K, collision times, the steps of policies and the fields of asked_fields(): the value at
   /// the cell, or one for each entry of the leading axis.
   std::map<std::string, std::vector<std::int32_t>> values;

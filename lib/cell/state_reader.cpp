@@ -69,7 +69,7 @@ bool StateReader::read_line() {
   return false;
 }
 
-/// As many as there are states where none is called so.
+/// The state with this name; the number of states if there is none.
 std::size_t StateReader::state_of(std::string_view name) const {
   return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
 }

@@ -35,12 +35,12 @@ class StateReader {
     std::string name;
     std::string value;     ///< without the quotation marks of CSV
     bool is_json = false;  ///< of JSON lines: JSON text
-    /// What stands there, without blanks around it; empty if that is nothing, or null.
+    /// The text of the value, without blanks around it; empty if there is none, or null.
     [[nodiscard]] std::string text() const;
   };
   /// Names without values: of CSV once it is open, of JSON lines those of the last state.
   [[nodiscard]] const std::vector<std::string>& extra_names() const { return extra_names_; }
-  /// Of the last state, in their order.
+  /// Values beside the last state, in the order of extra_names().
   [[nodiscard]] const std::vector<Extra>& extra() const { return extra_; }
   /// Whether the last state was given a value, by the order of the names; else it is 0.
   [[nodiscard]] bool is_given(std::size_t state) const { return is_given_[state]; }

@@ -154,7 +154,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
     for (std::uint32_t h = 0; h < size; ++h) {
       if (h == g) continue;
       if (groups.is_within(g, h)) groups.holders[g].push_back(h);
-      // Of two groups that are within each other the lower one stays.
+      // The lower one of two groups that are within each other stays.
       const bool contains = groups.is_within(h, g);
       const bool contained = groups.is_within(g, h);
       minimal = minimal && (!contains || (contained && g < h));

@@ -75,8 +75,8 @@ class DirtyRows {
   ZeroedArray<std::uint32_t> changed_;       ///< [row] the batch that changed it last
   std::vector<std::uint32_t> unit_changed_;  ///< [unit] the batch that changed a row of it last
   std::vector<std::uint32_t> seen_;          ///< [unit] the batch that looked at it last
-  /// Of the dimensions that units share, so many tell *coarse units* apart; few of these are looked at before
-  /// it is known that no unit in them has changed. 0: there are none.
+  /// Number of leading dimensions that tell *coarse units* apart: one look shows that no unit of a coarse
+  /// unit has changed. 0: there are none.
   std::size_t coarse_dimensions_ = 0;
   std::int64_t coarse_rows_ = 1;               ///< of a coarse unit
   std::vector<std::int64_t> unit_strides_;     ///< [shared dimension] in units

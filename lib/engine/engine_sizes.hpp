@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// How much of all rows one of several processes holds, ghost rows among them, and how much it owns.
+/// The fractions of all rows that one of several processes holds, ghost rows included, and that it owns.
 struct RowFractions {
   double held = 1;
   double own = 1;
@@ -72,7 +72,7 @@ class EngineSizes {
   [[nodiscard]] double usual_bytes(std::size_t t) const;
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
   [[nodiscard]] RowMargins reach_of(std::size_t i) const;
-  /// How much of table t the process has: of tables by cells the entries of its own rows, else all.
+  /// The fraction of table t that the process has: of tables by cells the entries of its own rows, else all.
   [[nodiscard]] double fraction_of_table(std::size_t t) const;
 
   const Model* model_;

@@ -14,7 +14,7 @@ struct EqualWork {
   /// @pre unchecked: of a tile of several rows all are canonical, or none is.
   const RowSymmetry* symmetry = nullptr;
 
-  /// The same with the numbers of the tables if there are no numbers.
+  /// This object with the numbers of the tables if it has no numbers.
   [[nodiscard]] EqualWork by_tables() const {
     return {tiles, tiles != nullptr && numbers == nullptr ? &tiles->tables() : numbers, symmetry};
   }

@@ -21,7 +21,7 @@ namespace coordreq {
 /// @param most dimensions along rows; kMostJoinedLanes is a limit beside it
 /// @returns the grid as it is if no dimensions can be joined, or if there are tubes
 [[nodiscard]] UniformGrid join_rows(const Abstraction& abstraction, std::size_t most = SIZE_MAX);
-/// The same, as far as it is known before there are tables; for estimates. @param offsets [state] of posts
+/// join_rows() as far as it is known before there are tables; for estimates. @param offsets [state] of posts
 [[nodiscard]] UniformGrid join_rows(const Model& model, const std::vector<IndexRange>& offsets);
 
 /// How far windows along a dimension reach beyond its ends, either way.

@@ -57,7 +57,7 @@ class LevelDelta {
     });
     age_[static_cast<std::size_t>(row)] = Age::now;
   }
-  /// The same where the levels before are not known: all cells count as changed.
+  /// change() where the levels before are not known: all cells count as changed.
   void change(std::int64_t row, const Level* after) {
     levels_.put(row, after);
     for (std::int64_t c = 0; c < levels_.row_length(); ++c)

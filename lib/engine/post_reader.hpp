@@ -82,7 +82,7 @@ class PostReader {
     REQUIRES(box.covers);
     return boxes_.minimum(box, 0, engine_.row_length());
   }
-  /// The same for the lanes [begin, end) of the row alone.
+  /// minimum() for the lanes [begin, end) of the row alone.
   [[nodiscard]] const Level* minimum(const RowBox& box, std::int64_t begin, std::int64_t end) {
     return boxes_.minimum(box, begin, end);
   }

@@ -65,7 +65,7 @@ RowEngine::RowEngine(const Abstraction& abstraction, const PairRules* pairs, con
 }
 
 void RowEngine::add_inner_demand(const CellSet& inside, std::vector<GridDimension> dimensions) {
-  // The same tubes again, now blocked where they pass a limit: the others need not be safe beyond it.
+  // These tubes are blocked where they pass a limit: the others need not be safe beyond it.
   for (GridDimension& dimension : dimensions) {
     if (traits(dimension.below).resets) dimension.below = Outside::unsafe;
     if (traits(dimension.above).resets) dimension.above = Outside::unsafe;

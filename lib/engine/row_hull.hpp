@@ -22,7 +22,7 @@ class RowHull {
   void box(const RowPlace& place, RowBox& box) const;
   /// The range or window of that box in dimension i.
   [[nodiscard]] IndexRange range(const RowPlace& place, std::size_t i) const { return hull(place, i).range; }
-  /// The same for a choice of the states that the table of dimension i uses.
+  /// range() for a choice of the states that the table of dimension i uses.
   [[nodiscard]] IndexRange range_of(std::size_t choice, std::size_t i) const {
     return hulls_[i][choice].range;
   }

@@ -32,7 +32,7 @@ struct RowEnds {
           static_cast<std::int32_t>(std::clamp<std::int64_t>(window.last, -n, n))};
 }
 
-/// How many cells beyond each end of a row posts can meet.
+/// The numbers of cells beyond each end of a row that posts can meet.
 struct RowMargins {
   std::int64_t before = 0;
   std::int64_t after = 0;

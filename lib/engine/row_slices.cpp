@@ -226,7 +226,7 @@ RowSlices keep_as_sums(const Abstraction& abstraction, const TransitionTable& ta
 RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table, std::size_t state,
                         const GridDimension& target) {
   const UniformGrid& grid = abstraction.grid;
-  // Of several dimensions that rows run along each moves by offsets of its own.
+  // Where rows run along several dimensions, each of these moves by offsets of its own.
   const std::size_t along = state < grid.across() ? grid.size() - 1 : state;
   RowSlices result{.ids = {}, .slices = {}, .state_stride = {}, .input_stride = {}, .inputs = table.inputs};
   lay_out_ids(result, grid, abstraction.inputs, table);

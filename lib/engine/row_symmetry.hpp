@@ -90,7 +90,7 @@ class RowSymmetry {
     agent.offsets = std::move(offsets);
   }
 
-  /// What the agents' dimensions are of the number of a row.
+  /// The part of the number of a row that the agents' dimensions make up.
   [[nodiscard]] std::int64_t offset_of(const Keys& keys) const {
     std::int64_t offset = 0;
     for (std::size_t b = 0; b < agents_.size(); ++b) offset += agents_[b].offsets[keys[b]];

@@ -163,8 +163,8 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
   return result;
 }
 
-/// How many tiles of a sample are different. It is drawn with equal distances that have no factor in common
-/// with a dimension: else all of it could have one index there.
+/// The fraction of different tiles in a sample, which is drawn with equal distances that have no factor in
+/// common with a dimension: else all of it could have one index there.
 double Tiles::fraction_different(const Numbers& content) const {
   const Numbers of_tiles = contents_of_tiles(content);
   const auto has_common_factor = [this](std::int64_t step) {

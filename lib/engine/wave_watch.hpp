@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// How much work a fixed point took, of all processes together. The same for any number of threads.
+/// The work of a fixed point, of all processes together. The same for any number of threads.
 struct WaveCounts {
   std::int64_t sweeps = 0;
   std::int64_t rows_visited = 0;  ///< visits: a row counts each time that its levels are worked out

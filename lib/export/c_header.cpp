@@ -32,7 +32,7 @@ std::string identifier(std::string name) {
   return name;
 }
 
-/// What a file says, without what could end a comment.
+/// A text of the file, without characters that could end a comment.
 std::string plain_word(std::string text) {
   std::erase_if(text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-'; });
   return text;
@@ -167,7 +167,7 @@ class HeaderWriter {
     integers("uint32_t", prefix + "set", sets);
   }
 
-  /// What is said of countdowns by numbers that those of the first policy do not have.
+  /// The meanings of numbers of countdowns that the countdown of the first policy does not have.
   [[nodiscard]] std::string more_codes(const AnswerPolicy& policy) const {
     const std::vector<FieldFlag> known = flags_of(results_.field(runs_.policies.front().trigger));
     std::string text;
@@ -257,7 +257,7 @@ class HeaderWriter {
     array("double", "bound", bounds, [](double value) { return fmt::format("{:a}", value); });
   }
 
-  /// Of class c row k - 1 of its silent table, for fibre f: bits[first[c] + (min(k, rows[c]) - 1) * ...].
+  /// The silent tables. Row k - 1 of class c, for fibre f: bits[first[c] + (min(k, rows[c]) - 1) * ...].
   void write_silent() const {
     const ProblemSpec& spec = results_.spec();
     std::vector<std::uint8_t> bits;

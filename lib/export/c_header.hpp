@@ -19,7 +19,7 @@ namespace coordreq {
 /// @throws LimitError beyond 2^31 - 1 cells; ResultsError if the actions cannot be computed
 void export_c_header(const ResultsReader& results, std::size_t partition, ThreadTeam& team,
                      const TextSink& sink);
-/// What that takes.
+/// Memory of export_c_header().
 [[nodiscard]] MemoryDemand c_header_demand(const ResultsReader& results);
 
 }  // namespace coordreq

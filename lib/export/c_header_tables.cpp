@@ -131,7 +131,7 @@ DimensionBounds dimension_bounds(const GridDimension& dimension) {
     result.bounds.push_back(upper_double(dimension.upper));
     return result;
   }
-  // What is measured beyond a limit by no more than the error reads as the boundary cell: see locate().
+  // A value measured beyond a limit by no more than the error reads as the boundary cell: see locate().
   const Rational lowest = dimension.first - dimension.measurement_error;
   const Rational highest = dimension.point(dimension.count - 1) + dimension.measurement_error;
   if (traits(dimension.below).clamps)

@@ -132,7 +132,7 @@ static inline int $P_allowed(int32_t cell, uint32_t c, uint32_t a) {{
 }}
 )c";
 
-/// Of a goal that ends the task.
+/// The function for a goal that ends the task.
 inline constexpr char kOver[] = R"c(
 /* Whether the task is over: in a cell of the goal, and in $M_LEFT_SAFELY. There nothing that follows matters, and
    what other functions say of actions is of no use. */
@@ -143,7 +143,7 @@ static inline int $P_is_over(int32_t cell) {{
 }}
 )c";
 
-/// Of a policy that does not hold everywhere.
+/// The functions of a policy that does not hold everywhere.
 inline constexpr char kPolicy[] = R"c(
 /* {purpose} */
 {codes}

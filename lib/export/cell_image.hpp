@@ -13,7 +13,7 @@ namespace coordreq {
 /// Memory: 4 bytes for each cell that is left and each column.
 /// @throws UsageError if more than three states are left
 [[nodiscard]] ImageContent cell_image(const ResultsReader& results, const TableSelection& selection);
-/// What that takes.
+/// Memory of cell_image(), in bytes.
 [[nodiscard]] double image_bytes(const ResultsReader& results, const TableSelection& selection);
 
 }  // namespace coordreq

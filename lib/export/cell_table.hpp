@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// What is left of a table over cells.
+/// The cells of a table: slices of it, and projections.
 struct TableSelection {
   struct Slice {
     std::size_t dimension = 0;
@@ -34,7 +34,7 @@ struct CellColumn {
   std::optional<std::size_t> leading;  ///< place along the axis before those of the cells
   /// Rank of a value where numbers are compared: codes of what is no number of steps have their place.
   [[nodiscard]] double rank(std::int32_t value) const;
-  /// What a value is as a number: infinity for kNever, a probability for its bits.
+  /// A value as a number: infinity for kNever, a probability for its bits.
   [[nodiscard]] double number(std::int32_t value) const;
 };
 [[nodiscard]] std::vector<CellColumn> cell_columns(const ResultsReader& results,
@@ -48,7 +48,7 @@ struct CellColumn {
 /// the first projections of one kind.
 class CellTable {
  public:
-  /// What it takes to go over the rows of a table.
+  /// Memory of going over the rows of a table, in bytes.
   [[nodiscard]] static double bytes(const ResultsReader& results, const TableSelection& selection);
 
   /// @pre every dimension at most once in the selection. @pre unchecked: `results` outlives this object

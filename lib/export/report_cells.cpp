@@ -50,7 +50,7 @@ std::int64_t root(std::int64_t limit, std::size_t n) {
   return std::max<std::int64_t>(m, 1);
 }
 
-/// How many indices each of some dimensions gets if there is room for `room` cells: as many of each as
+/// The numbers of indices that some dimensions get if there is room for `room` cells: as many of each as
 /// possible, short dimensions in full.
 void share(const UniformGrid& grid, std::vector<std::size_t> dimensions, std::int64_t& room,
            std::vector<std::int64_t>& counts) {

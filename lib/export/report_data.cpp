@@ -135,7 +135,7 @@ double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
   double points = 0;
   for (const GridDimension& dimension : results.grid().dimensions())
     points += static_cast<double>(dimension.count);
-  // Of a counterexample every step is told in the text, and drawn.
+  // Every step of a counterexample is told in the text, and drawn.
   constexpr double kBytesOfNumber = 350;
   const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
   double steps = 0;

@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-/// How much of a result a page may hold.
+/// Limits of the data of a page.
 struct ReportLimits {
   std::int64_t values = std::int64_t{1} << 27;  ///< numbers, over all maps
   std::size_t packed_bytes = std::size_t{12} << 20;
@@ -28,7 +28,7 @@ struct ReportData {
   bool is_whole = true;  ///< every cell is in it
 };
 
-/// What it takes to make a page of that, with the text of it.
+/// Memory of report_data() and of a page with its text, in bytes.
 [[nodiscard]] double report_bytes(const ResultsReader& results, const ReportLimits& limits = {});
 /// The maps over cells as one JSON document: grid points and layers, and for each set of cells that
 /// choose_cells() finds the delay of each of `partitions` and the collision time; where the file has them the

@@ -8,7 +8,7 @@ namespace coordreq {
 /// `text` as HTML or XML text or attribute value: & < > " ' as entities.
 [[nodiscard]] std::string html_text(std::string_view text);
 
-/// What a page is made of.
+/// The parts of a page.
 struct ReportPage {
   std::string title;    ///< plain text
   std::string summary;  ///< HTML: what stands before the pictures

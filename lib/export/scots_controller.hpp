@@ -21,7 +21,7 @@ enum class ControllerKind : std::uint8_t {
 ///   input values that are not evenly spaced and ascending
 /// @pre for `progress` the spec has a goal
 void export_scots(const ResultsReader& results, ControllerKind kind, ThreadTeam& team, const TextSink& sink);
-/// What that takes.
+/// Memory of export_scots().
 [[nodiscard]] MemoryDemand scots_demand(const ResultsReader& results);
 
 }  // namespace coordreq

@@ -13,12 +13,12 @@ namespace coordreq {
 struct ToleranceQuestion {
   std::size_t partition = 0;
   std::int64_t steps = 1;  ///< that the delay has to be at least
-  /// Of which values are sought, and whether larger ones are better; one or two.
+  /// A state whose values are sought, and whether larger ones are better.
   struct Over {
     std::size_t state = 0;
     bool is_large_best = true;
   };
-  std::vector<Over> over;
+  std::vector<Over> over;                    ///< one or two
   std::vector<TableSelection::Slice> given;  ///< cells of other states; of those not named every value counts
 };
 

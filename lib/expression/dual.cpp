@@ -36,7 +36,7 @@ Dual free_value(const Interval& range) {
   return result;
 }
 
-/// Of a function that is constant but for jumps.
+/// The result of a function that is constant except for jumps.
 Dual jump_of(const Interval& range, bool total) {
   Dual result = range.is_point() ? Dual::constant(range) : free_value(range);
   result.total = total;

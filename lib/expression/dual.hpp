@@ -41,7 +41,7 @@ struct Dual {
 /// A double in the middle of a bounded interval, and in every interval.
 [[nodiscard]] double midpoint(const Interval& a);
 
-// What Evaluator<Dual> asks for.
+// The operations that Evaluator<Dual> needs.
 [[nodiscard]] Dual from_rational(const Dual* tag, const Rational& q);
 [[nodiscard]] Dual apply(Operator op, const Dual& a);
 [[nodiscard]] Dual apply(Operator op, const Dual& a, const Dual& b);

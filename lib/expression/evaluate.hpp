@@ -17,11 +17,11 @@ struct ConditionValue {
   bool total = true;  ///< false if it is undecided and perhaps undefined
 };
 
-/// Of a node that is a condition, from the values of the nodes that it refers to.
+/// The value of a node that is a condition, from the values of the nodes that it refers to.
 template <class Node, class T>
 [[nodiscard]] ConditionValue condition_of(const Node& node, const std::vector<T>& numbers,
                                           const std::vector<ConditionValue>& truths) {
-  // What is decided is so whatever part of it is undefined.
+  // A condition that is decided stays so whatever part of it is undefined.
   const auto made = [](Truth value, bool total) {
     return ConditionValue{value, total || value != Truth::undecided};
   };
@@ -90,7 +90,7 @@ class Evaluator {
     REQUIRES(!is_condition(program_->nodes[node].op));
     return numbers_[node];
   }
-  /// The same of a node that is a condition.
+  /// Truth of a node that is a condition, in the last run.
   [[nodiscard]] Truth truth_at(std::uint32_t node) const { return truths_[node].value; }
 
  private:

@@ -77,7 +77,7 @@ enum class Operator : std::uint8_t {
   return op == Operator::angle || op == Operator::sign || op == Operator::floor || op == Operator::if_else;
 }
 
-/// How many of a, b and c of a node are other nodes.
+/// How many of the members a, b and c of a node with this operator refer to other nodes.
 [[nodiscard]] constexpr std::size_t operand_count(Operator op) {
   if (op <= Operator::variable || op >= Operator::literal_true) return 0;
   if (is_unary_function(op) || op == Operator::logical_not) return 1;

@@ -5,11 +5,11 @@
 
 namespace coordreq {
 
-/// What a function of another language is called here, for the end of a message: ", did you mean 'log'?";
-/// empty if nothing is known.
+/// The name here of a function of other languages, for the end of a message: ", did you mean 'log'?"; empty
+/// if none is known.
 [[nodiscard]] std::string meant_function(std::string_view name);
 
-/// The same of a constant, or of a truth value.
+/// meant_function() for constants and truth values.
 [[nodiscard]] std::string meant_constant(std::string_view name);
 
 }  // namespace coordreq

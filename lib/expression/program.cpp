@@ -109,7 +109,7 @@ class Linker {
     if (const auto* const definition = std::get_if<std::shared_ptr<const Program>>(&binding)) {
       return {tape_.merge(**definition), (*definition)->is_condition(), offset};
     }
-    // What stands for a number everywhere else is rather meant than a name that is spelt alike.
+    // A constant of other languages is rather meant than a name that is spelt alike.
     const std::string meant = meant_constant(name);
     const std::string& hint = meant.empty() ? std::get<NotDefined>(binding).hint : meant;
     place_.fail(fmt::format("{} is not defined{}", quoted(name), hint), offset);

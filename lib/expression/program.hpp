@@ -41,7 +41,7 @@ struct NotDefined {
   std::string hint = {};  ///< for the end of the message, perhaps ", did you mean 'v1'?"
 };
 
-/// What a name in an expression can stand for.
+/// The meaning of a name in an expression.
 using Binding = std::variant<NotDefined,
                              std::uint32_t,                    ///< a variable: its slot
                              Rational,                         ///< a constant

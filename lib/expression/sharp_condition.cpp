@@ -31,7 +31,7 @@ Truth SharpCondition::decide(std::span<const RationalInterval> box) {
 Truth SharpCondition::visit(Box& box, std::vector<Truth> truths, int cuts) {
   if (boxes_left_-- == 0) return Truth::undecided;
   for (std::size_t i = 0; i < truths.size(); ++i) {
-    // What is decided for a box is decided for its parts.
+    // A comparison that is decided for a box is decided for its parts.
     if (truths[i] == Truth::undecided) truths[i] = comparisons_[i].decide(box);
   }
   const Truth truth = formula_.value(truths);

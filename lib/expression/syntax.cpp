@@ -231,7 +231,7 @@ class Parser {
     return is_second_star ? ", did you mean '^'?" : "";
   }
 
-  /// Of a '=' by itself, as in "x => 1".
+  /// The hint for a '=' by itself, as in "x => 1".
   [[nodiscard]] std::string_view equals_hint() const {
     const std::string_view rest = place_.text.substr(token_.offset + 1);
     if (rest.starts_with('>')) return ", did you mean '>='?";

@@ -11,8 +11,8 @@
 
 namespace coordreq {
 
-/// What an expression says, before names and types are looked at: a tree in postfix order, so that whoever
-/// walks it needs a stack of values and no recursion.
+/// An expression before names and types are resolved: a tree in postfix order, so that walking it needs a
+/// stack of values and no recursion.
 struct SyntaxTree {
   struct Node {
     Operator op = Operator::constant;

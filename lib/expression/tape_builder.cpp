@@ -102,7 +102,7 @@ TapeBuilder::Index TapeBuilder::insert(const Program::Node& node) {
   return index;
 }
 
-/// But for what depends on the values of its operands, other than constants.
+/// Whether a node is defined everywhere, whatever the values of operands that are no constants.
 bool TapeBuilder::is_total(const Program::Node& node) const {
   const std::size_t operands = operand_count(node.op);
   if ((operands > 0 && !total_[node.a]) || (operands > 1 && !total_[node.b]) ||

@@ -43,8 +43,9 @@ struct Function {
 };
 [[nodiscard]] std::optional<Function> find_function(std::string_view name);
 
-/// How many arguments an operator on the past takes; 0 if it is none. They stand in formulas of memories
-/// only, which are taken apart before they are parsed, so that their names are free for other things.
+/// Number of arguments of an operator on the past; 0 if `name` is none. These operators stand only in
+/// formulas of memories, which are taken apart before they are parsed, so that their names are free for other
+/// things.
 [[nodiscard]] std::size_t past_operator_arguments(std::string_view name);
 
 }  // namespace coordreq

@@ -7,8 +7,8 @@
 
 namespace coordreq {
 
-/// What a node that is a condition is worth, given the worth of the nodes before it.
-/// @param comparison what it is worth if it compares two numbers
+/// The truth of a node that is a condition, given the truths of the nodes before it.
+/// @param comparison finds the truth of a node that compares two numbers
 template <class Comparison>
 [[nodiscard]] Truth truth_of(const Program::Node& node, const std::vector<Truth>& truths,
                              const Comparison& comparison) {

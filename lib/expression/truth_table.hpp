@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// What a variable can be, index by index.
+/// The values of a variable, index by index.
 struct ConditionAxis {
   using Ranges = std::vector<RationalInterval>;
   std::int64_t count = 0;

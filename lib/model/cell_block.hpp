@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// So many cells are read at a time by whoever goes through a whole array.
+/// Number of cells that are read at a time by code that goes through a whole array.
 inline constexpr std::int64_t kPartCells = 1 << 20;
 
 /// A box of cells: the grid indices first[i], ..., first[i] + count[i] - 1 of each dimension i. Arrays over

@@ -20,13 +20,13 @@ enum class Sampling : std::uint8_t {
   closed_cells,
 };
 
-/// What states and inputs can be, by slot. @pre unchecked: grid and inputs outlive the axes.
+/// The values of states and inputs, by slot. @pre unchecked: grid and inputs outlive the axes.
 /// @param leading indices of the first dimension, or all
 [[nodiscard]] std::vector<ConditionAxis> condition_axes(
     const UniformGrid& grid, const InputSpace& inputs, Sampling sampling,
     std::optional<ThreadTeam::Range> leading = std::nullopt);
-/// The same for `allow`: grid points, and then each state once more as the whole cell that memories are asked
-/// of (ControllerSpec::allow).
+/// Axes of the condition `allow`: grid points, and then each state once more as the whole cell, which
+/// memories are asked about (ControllerSpec::allow).
 [[nodiscard]] std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs,
                                                     std::optional<ThreadTeam::Range> leading = std::nullopt);
 
@@ -47,7 +47,7 @@ class ConditionTable {
                  Sampling sampling, const Undecided& undecided, ThreadTeam& team,
                  Question question = Question::truth,
                  std::optional<ThreadTeam::Range> leading = std::nullopt);
-  /// Of `allow`.
+  /// The table of the condition `allow`, see allow_axes().
   ConditionTable(const Program& allow, const UniformGrid& grid, const InputSpace& inputs,
                  const Undecided& undecided, ThreadTeam& team,
                  std::optional<ThreadTeam::Range> leading = std::nullopt);

@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-/// What the next value of one state depends on; indices into the spec's lists, ascending.
+/// The variables that the next value of one state depends on; indices into the spec's lists, ascending.
 struct Dependencies {
   std::vector<std::int32_t> moving;      ///< states that count with the box of a cell
   std::vector<std::int32_t> parameters;  ///< discrete states whose values are put in one by one

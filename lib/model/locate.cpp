@@ -53,7 +53,7 @@ Location locate(const UniformGrid& grid, std::span<const Rational> state) {
     const std::int64_t k = index_of(grid[i], state[i]);
     location.index.push_back(k);
     const Location::Kind kind = kind_of(grid[i], state[i], k);
-    // What is worst counts, and of that the first.
+    // The worst kind counts, and the first dimension of that kind.
     if (kind <= location.kind) continue;
     location.kind = kind;
     location.dimension = i;

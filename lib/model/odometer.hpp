@@ -37,7 +37,7 @@ class Odometer {
     }
   }
 
-  /// How many tuples there are.
+  /// Number of tuples.
   [[nodiscard]] std::int64_t size() const {
     std::int64_t product = 1;
     for (const std::int64_t count : counts_) product *= count;

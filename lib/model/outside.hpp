@@ -9,8 +9,8 @@
 
 namespace coordreq {
 
-/// What a rule for leaving the domain through one side does (contract, "Leaving the domain"). Code asks for
-/// one of these, not for rules by name, so that a new rule is one more row of the table below.
+/// Properties of a rule for leaving the domain through one side (contract, "Leaving the domain"). Code asks
+/// for properties, not for rules by name, so that a new rule is one more row of the table below.
 struct OutsideTraits {
   bool blocks = false;   ///< a post that leaves is empty
   bool arrives = false;  ///< what leaves is the absorbing cell T, in every set
@@ -22,7 +22,7 @@ struct OutsideTraits {
 
   /// At a sample the true state may be beyond the side.
   [[nodiscard]] constexpr bool is_open() const { return blocks || arrives; }
-  /// What leaves is safe for ever, and never reaches the goal.
+  /// A state that leaves is safe for ever, and never reaches the goal.
   [[nodiscard]] constexpr bool is_only_safe() const { return arrives && !wins; }
 };
 

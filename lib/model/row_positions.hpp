@@ -18,7 +18,7 @@ struct RowPositions {
   std::vector<std::int64_t> input_stride;  ///< the same by input
   std::int64_t before = 0;                 ///< positions in front of those that there are
 
-  /// Of the cells of grid row `row` under joint input `u` (any u if no input is in use).
+  /// Position of grid row `row` under joint input `u` (any u if no input is in use).
   [[nodiscard]] std::int64_t of(std::int64_t row, std::int64_t u) const {
     std::int64_t position = -before;
     for (std::size_t i = 0; i + 1 < grid->size(); ++i) {

@@ -14,7 +14,7 @@ namespace coordreq {
 /// first-level cache.
 inline constexpr std::int64_t kMostJoinedLanes = 8192;
 
-/// How many rows there are if they run along some states, and how many of a sample of them are different.
+/// The number of rows if they run along some states, and of different rows in a sample of them.
 struct RowSample {
   std::int64_t rows = 0;
   std::int64_t lanes = 0;      ///< cells of a row

@@ -5,8 +5,9 @@
 
 namespace coordreq {
 
-/// What a sample makes of the value at the end of a period (contract, "Leaving the domain"): `periodic`
-/// brings it to [lower, upper), `saturate` to the first or last grid point on its side, all else leaves it.
+/// The value after a sample, given that at the end of the period (contract, "Leaving the domain"): `periodic`
+/// brings it to [lower, upper), `saturate` to the first or last grid point on its side; the other rules leave
+/// it as it is.
 [[nodiscard]] Rational reset_at_sample(const GridDimension& dimension, const Rational& value);
 
 }  // namespace coordreq

@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// What the next value of one state depends on, and in which form and size its table will be kept; known
+/// The variables that the next value of one state depends on, and the form and size of its table; known
 /// without the entries. Indices are those of the spec's lists, ascending.
 struct TableShape : Dependencies {
   std::vector<std::int32_t> states;  ///< moving and parameters, the own one included, if it depends on it

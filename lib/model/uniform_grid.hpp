@@ -27,14 +27,14 @@ class UniformGrid {
   /// Rows along the last dimension; dimension i is state i.
   explicit UniformGrid(const std::vector<GridDimension>& dimensions);
 
-  /// The same cells with dimension d for the state that is dimension order[d] here, in rows along the last
-  /// one. @pre `order` is a permutation
+  /// This grid with its dimensions in another order: dimension d is dimension order[d] here. Rows run along
+  /// the last one. @pre `order` is a permutation
   [[nodiscard]] UniformGrid arranged(const std::vector<std::size_t>& order) const;
-  /// The same cells in rows along several dimensions.
+  /// This grid with rows along several dimensions.
   /// @param gaps for each of the last dimensions that rows run along, but for the first of these, its gap, in
   ///   indices of that dimension; none: rows along the last dimension alone
   [[nodiscard]] UniformGrid in_rows(const std::vector<std::int64_t>& gaps) const;
-  /// The same rows of as many cells, with other rules for what lies beyond them.
+  /// This grid with other rules for leaving the domain.
   /// @pre as many indices in each of `dimensions`
   [[nodiscard]] UniformGrid with(std::vector<GridDimension> dimensions) const;
 

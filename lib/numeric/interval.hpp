@@ -172,7 +172,7 @@ struct Interval {
 [[nodiscard]] Interval cos(const Interval& a);
 /// The whole line, not total, if a may contain a pole.
 [[nodiscard]] Interval tan(const Interval& a);
-/// Of the part within [-1, 1].
+/// Arc sine and arc cosine of the part of `a` within [-1, 1].
 [[nodiscard]] Interval asin(const Interval& a);
 [[nodiscard]] Interval acos(const Interval& a);
 [[nodiscard]] Interval atan(const Interval& a);

@@ -22,7 +22,7 @@ inline Interval& operator/=(Interval& a, const Interval& b) {
 
 }  // namespace coordreq
 
-/// What Eigen asks of a scalar.
+/// The traits that Eigen needs of a scalar.
 template <>
 struct Eigen::NumTraits<coordreq::Interval> : Eigen::GenericNumTraits<coordreq::Interval> {
   enum { RequireInitialization = 1, ReadCost = 3, AddCost = 10, MulCost = 30 };

@@ -24,7 +24,7 @@ struct RationalInterval {
 
 /// The narrowest Interval that contains a.
 [[nodiscard]] Interval enclose(const RationalInterval& a);
-/// The same set; the whole line if an end is infinite.
+/// The same set as `a`; the whole line if an end is infinite.
 [[nodiscard]] RationalInterval to_rational(const Interval& a);
 
 [[nodiscard]] RationalInterval hull(const RationalInterval& a, const RationalInterval& b);

@@ -29,7 +29,7 @@ class Ranks {
   /// Whether the next message of a rank has arrived.
   [[nodiscard]] virtual bool has_message(int from) = 0;
 
-  /// How many of them, this one included, are on the machine of this one.
+  /// Number of ranks on the machine of this one, itself included.
   [[nodiscard]] virtual int on_this_machine() const = 0;
   /// Bytes of all messages that this one has sent.
   [[nodiscard]] virtual std::int64_t sent_bytes() const = 0;

@@ -62,17 +62,19 @@ class RowShare {
   return share == nullptr ? std::vector<RowShare::Range>{{0, rows}} : share->held();
 }
 
-/// Calls `body(range, worker)` in pieces of at most `grain` rows for those that a rank owns, or for all.
+/// Calls `body(range, worker)` in pieces of at most `grain` rows for the rows that a rank owns. @param share
+///   null: for all rows
 void for_each_own_row(ThreadTeam& team, const RowShare* share, std::int64_t rows, std::int64_t grain,
                       const ThreadTeam::Body& body);
-/// The same for those that it holds. @param grain if it is that of all rows, one run after the other
+/// for_each_own_row() for the rows that a rank holds, its ghost rows included. @param grain as many as all
+///   rows: one run after the other
 void for_each_held_row(ThreadTeam& team, const RowShare* share, std::int64_t rows, std::int64_t grain,
                        const ThreadTeam::Body& body);
-/// The same for some runs of rows.
+/// Calls `body(range, worker)` in pieces of at most `grain` rows for the rows of `runs`.
 void for_each_row_of(ThreadTeam& team, const std::vector<RowShare::Range>& runs, std::int64_t grain,
                      const ThreadTeam::Body& body);
 
-/// The sum over all ranks, of what one process has found.
+/// The sum over all ranks of a number that each of them has found. @param share null: `own` alone
 [[nodiscard]] inline std::int64_t sum_of_all(const RowShare* share, std::int64_t own) {
   return share == nullptr ? own : share->ranks().sum(own);
 }

@@ -7,8 +7,8 @@ namespace coordreq {
 namespace {
 
 constexpr int kIterations = 12;
-/// What the first guess and every box that proved too small are widened by, as a part of their growth; later
-/// on twice as much each time, as growth from a singularity is slow to show its size.
+/// The widening of the first guess and of every box that proved too small, as a part of their growth; later
+/// twice as much each time, since growth from a singularity is slow to show its size.
 constexpr double kInflation = 0.125;
 constexpr int kModestIterations = 4;
 /// So that a box without growth is widened beyond what rounding adds.

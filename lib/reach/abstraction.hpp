@@ -11,8 +11,8 @@
 
 namespace coordreq {
 
-/// What one state adds to both ends of a next range, for a table that is a sum (TransitionTable). In units of
-/// 2^-32 of a grid step, rounded outward.
+/// A term of a table that is a sum (TransitionTable): the amount that one state adds to both ends of a next
+/// range, in units of 2^-32 of a grid step, rounded outward.
 struct TransitionTerm {
   std::int32_t state = 0;
   /// Position: sum of index * stride as in TransitionTable; that of `state` is 1.
@@ -55,7 +55,7 @@ struct TransitionTable {
     return !is_sum() && !shift && states.size() == all;
   }
   [[nodiscard]] bool has_term(std::size_t state) const;
-  /// What is stored, in bytes.
+  /// Size of the entries, in bytes.
   [[nodiscard]] std::uint64_t bytes() const;
 
   /// The entry at a position; null if it is not held.
@@ -124,7 +124,7 @@ struct Abstraction {
 
   /// Raw range of state `i` at the next sample from cell `x` (linear index) under joint input `u`.
   [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t x, std::int64_t u) const;
-  /// The same after the rules for leaving the domain.
+  /// raw() after the rules for leaving the domain.
   [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t x, std::int64_t u) const;
   /// Raw range of the tube. @pre there are tubes
   [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const;
@@ -137,7 +137,7 @@ struct Abstraction {
 /// and returns its number of entries.
 std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGrid& grid,
                      const InputSpace& inputs);
-/// The same with states in another order, of a table in full that depends on all of them.
+/// lay_out() with the states in another order, for a table in full that depends on all of them.
 std::int64_t lay_out_by_cells(TransitionTable& table, const std::vector<std::size_t>& order,
                               const UniformGrid& grid, const InputSpace& inputs);
 

@@ -10,7 +10,7 @@ using outward::multiply_up;
 
 constexpr std::uint32_t kKernelParts = 1U << 26U;
 
-/// What may be left out of the kernel, relative to it.
+/// The part of the kernel that may be left out.
 constexpr double kPrecision = 1e-17;
 
 bool is_same(const IntervalMatrix& a, const IntervalMatrix& b) {

@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// What SampledRow says of whole cells.
+/// The posts of whole cells, from a SampledRow.
 struct AffinePost {
   const UniformGrid& grid;
   const std::vector<std::int32_t>& moving;  ///< states that the row has coefficients of
@@ -29,8 +29,8 @@ struct AffinePost {
   /// The values from one piece of each moving state.
   [[nodiscard]] Piece from_pieces(const SampledRow& row, const std::vector<Piece>& pieces) const;
 
-  /// How many indices of a state are filled in: of a shift only 0 of its own, so that raw indices are
-  /// relative.
+  /// Number of indices of a state that are filled in: of its own state a shift has index 0 alone, since raw
+  /// indices are relative.
   [[nodiscard]] std::int64_t filled_count(std::size_t source) const {
     return shift && source == state ? 1 : grid[source].count;
   }
@@ -70,7 +70,7 @@ struct AffinePost {
       if (held != nullptr) *held = entry(cell);
     });
   }
-  /// The same, but `entry` is called for those that are not held too.
+  /// As fill(), but `entry` is called for cells that are not held too.
   template <class Entry>
   void fill_and_check(TransitionTable& table, std::int64_t base, const Entry& entry) const {
     for_each_entry(table, base, [&](IndexRange* held, const std::vector<std::int64_t>& cell) {

@@ -9,8 +9,8 @@
 namespace coordreq {
 namespace {
 
-/// What lies beyond all that is known to be reached by less than this part of a step is close to it, in
-/// whichever cells.
+/// An end that lies beyond the known solutions by less than this part of a step is close enough, in whichever
+/// cell.
 constexpr double kCloseSteps = 0.05;
 /// Where one half after another has no enclosure, the smallest is as good as a point after so many.
 constexpr int kDeepestFailure = 40;

@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// What an enclosure of one state's next value is good for: the cells that it meets.
+/// The grid by which enclosures of one state's next value are measured: the cells that they meet.
 struct EndCells {
   std::size_t state = 0;  ///< index into the ends of an enclosure
   double first = 0.0;     ///< the middle of a cell
@@ -17,8 +17,8 @@ struct EndCells {
   double reach = 0.0;     ///< by which the value is widened before cells are counted
   bool placed = true;     ///< false: the cells are not known, as something is added to the value
 
-  /// How many cells more than `b` its hull with `a` meets; of what is not placed, by how many steps it is
-  /// longer.
+  /// The number of cells that the hull of `a` and `b` meets and `b` does not; without places on the grid, the
+  /// number of steps by which the hull is longer.
   [[nodiscard]] double more_cells(const Interval& a, const Interval& b) const;
 };
 

@@ -28,9 +28,9 @@ namespace coordreq {
 /// is seen before. @throws SpecError as build_abstraction() does
 void check_discrete_states(const SystemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team);
 
-/// What saturates is at the last (first) grid point when it is measured, however far out the post lies; an
-/// error of half a cell or more then shows it in another cell than the boundary one. Adds those cells to the
-/// table of a state that has been filled; build_abstraction() has done so.
+/// Adds the cells in which a state that saturates may be measured to its table, which has been filled: the
+/// state is at the last (first) grid point, however far out the post lies, and an error of half a cell or
+/// more shows it in other cells than the boundary one. build_abstraction() calls this.
 void include_measurements_of_saturated(const SystemSpec& spec, Abstraction& abstraction, std::size_t state);
 
 }  // namespace coordreq

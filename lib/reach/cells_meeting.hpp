@@ -12,7 +12,7 @@ namespace coordreq {
 [[nodiscard]] IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Rational& lower,
                                        const Rational& upper, bool upper_attained);
 
-/// The same for an enclosure in doubles, widened by the dimension's measurement error.
+/// cells_meeting() for an enclosure in doubles, widened by the dimension's measurement error.
 /// @pre the ends are finite
 [[nodiscard]] IndexRange cells_meeting(const GridDimension& dimension, Cells cells,
                                        const Interval& enclosure);
@@ -28,7 +28,8 @@ namespace coordreq {
 [[nodiscard]] IndexRange cells_covering(const GridDimension& dimension, const Rational& lower,
                                         const Rational& upper);
 
-/// The same relative to the own cell for all of it moved by `shift`. @pre 0 in `shift`
+/// The cells that cover a whole cell moved by each number of `shift`, relative to that cell. @pre 0 in
+/// `shift`
 [[nodiscard]] IndexRange cells_covering_shifted(const GridDimension& dimension, const Interval& shift);
 
 }  // namespace coordreq

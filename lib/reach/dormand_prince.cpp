@@ -25,7 +25,7 @@ const Weights& error_weights() {
   return table;
 }
 
-/// Of the term of degree 4 in the interpolant.
+/// Weights of the term of degree 4 in the interpolant.
 const Weights& interpolation_weights() {
   static const Weights table{-12715105075.0 / 11282082432.0,  0,
                              87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,

@@ -41,7 +41,7 @@ class DormandPrince {
  private:
   static constexpr Eigen::Index kStages = 7;
 
-  /// What a stage adds to the start, without h.
+  /// The increment of a stage over the start, divided by h.
   [[nodiscard]] Values increment(Eigen::Index stage) const;
 
   Values start_;

@@ -17,7 +17,8 @@ constexpr std::uint64_t kLongestFace = kFaceParts / 16;
 constexpr std::uint64_t kFine = kFaceParts / 256;
 constexpr int kFaceMostTries = 3000;
 constexpr int kFacePatience = 3;
-/// What derivatives of unknown size may add in a period, as a part of the width of the initial box.
+/// The change that derivatives of unknown size may add in a period, as a part of the width of the initial
+/// box.
 constexpr double kFaceTolerance = 0.1;
 /// A state that decays by more than this within a step is bounded by where it settles.
 constexpr double kFaceStrongDecay = 1.0;
@@ -27,7 +28,7 @@ constexpr int kModestRounds = 4;
 constexpr int kLevelTries = 8;
 constexpr int kBisections = 20;
 constexpr int kRateRounds = 7;
-/// What does not prove itself in so many rounds is followed by values over all of the step.
+/// A rate that is not proven in so many rounds is replaced by values over all of the step.
 constexpr int kRatePatience = 4;
 
 double margin(double x) {
@@ -68,7 +69,7 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
   result.tube = now_;
   result.drift.assign(n_, Interval{});
   std::uint64_t left = kFaceParts;
-  // Of a state that starts from a point nothing says how exact it should be.
+  // For a state that starts from a point there is no scale of precision.
   const bool any_point =
       std::any_of(now_.begin(), now_.end(), [](const Interval& a) { return a.is_point(); });
   const std::uint64_t longest = any_point ? kLongestFace / 8 : kLongestFace;
@@ -129,7 +130,7 @@ bool FaceFlow::try_step(const Interval& duration, bool divisible) {
   return true;
 }
 
-/// What no state passes during the step. Each level either cannot be reached in time, with the fastest
+/// The levels that no state passes during the step. Each either cannot be reached in time, with the fastest
 /// speed on the way to it, or no solution moves on from it; the others being in `box_`, with a margin.
 bool FaceFlow::find_levels(double duration) {
   for (std::size_t i = 0; i < n_; ++i) {
@@ -187,7 +188,7 @@ bool FaceFlow::raise_level(std::size_t i, bool upper, double duration, int round
     way *= 4.0;
     high = from + way;
   }
-  // What settles need not be followed to where it could get without settling.
+  // A state that settles need not be followed as far as it could get without settling.
   if (high < limit(i, upper) && duration * steepest(i, upper, from, high) >= high - from) {
     for (int n = 0; n < kBisections; ++n) {
       const double middle = 0.5 * low + 0.5 * high;
@@ -199,7 +200,7 @@ bool FaceFlow::raise_level(std::size_t i, bool upper, double duration, int round
   return true;
 }
 
-/// What `stop` holds the state at, seen outward.
+/// The limit at which `stop` holds the state, seen outward.
 double FaceFlow::limit(std::size_t i, bool upper) const {
   return outward_end(field_->clipped(i, whole_line(true)), upper);
 }

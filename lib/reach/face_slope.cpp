@@ -202,8 +202,8 @@ Interval FaceSlope::value_at_start(const MovingBounds& bounds, bool upper) {
   return intersect(natural, by_mean).value_or(natural);
 }
 
-/// Of the extreme, as the face moves. Where it lies is known for monotone variables; others are compared with
-/// the nearest point of where they were.
+/// The rate of change of the extreme as the face moves. Its place is known along monotone variables; along
+/// others it is compared with the nearest point of its last place.
 Interval FaceSlope::rate_of_change(const MovingBounds& bounds, bool upper) const {
   Interval sum{0.0, 0.0};
   for (std::size_t k = 0; k < states_.size(); ++k) {

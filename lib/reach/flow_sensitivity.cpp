@@ -50,7 +50,7 @@ void FlowSensitivity::reset() {
   jump_.setZero();
 }
 
-/// What acted before is carried on by Phi(h, 0), what acts in this step by Phi(h, s).
+/// The effect of earlier disturbances is carried on by Phi(h, 0), that of this step by Phi(h, s).
 void FlowSensitivity::append(const TransitionMatrix& transition, const Jacobian& jacobian) {
   const IntervalMatrix now = product(transition.range(), jacobian.disturbance());
   const IntervalMatrix before = product(transition.end(), kernel_);

@@ -21,7 +21,7 @@ constexpr std::uint32_t kSmallWithoutBound = kParts / 32;
 constexpr std::uint32_t kSmallWithoutRemainder = kParts / 4096;
 /// Seams are passed in steps as small.
 constexpr std::uint32_t kSmallOnSeam = kParts / 64;
-/// What the remainder of a step may add, relative to the width of the initial box and to the magnitude.
+/// The remainder that a step may add, relative to the width of the initial box and to the magnitude.
 constexpr double kWidthTolerance = 1e-7;
 constexpr double kMagnitudeTolerance = 1e-15;
 constexpr double kLeastTolerance = 1e-290;
@@ -123,7 +123,7 @@ std::size_t ValidatedFlow::Solver::fastest() const {
   return static_cast<std::size_t>(found - derivative_.begin());
 }
 
-/// Of each state by itself, from the Jacobian.
+/// Notes the rate of each state, from the Jacobian.
 void ValidatedFlow::Solver::note_rates() {
   for (std::size_t i = 0; i < n_; ++i) {
     if (-jacobian_.state()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)).lower >

@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// What a sub-step of the flow leaves behind for the solutions that are followed through it.
+/// A sub-step of the flow, as needed to follow solutions through it.
 struct FlowStep {
   Interval duration;
   bool smooth = false;  ///< the remainder holds for every solution from the initial box

@@ -20,7 +20,7 @@ End extreme_end(const Interval& range, const Interval& sensitivity, double toler
   return rising ? if_rising : if_falling;
 }
 
-/// What lies in the range, seen from where the solution starts.
+/// The range relative to the start of the solution.
 Interval around(const Interval& range, End end) {
   const double value = end == End::lower ? range.lower : end == End::upper ? range.upper : midpoint(range);
   return range - Interval(value);
@@ -116,8 +116,8 @@ bool ValidatedFlow::Solver::follow(FollowedSolution& solution) {
   return found;
 }
 
-/// What an extreme can lie beyond the solution that is followed for it: the mean value theorem for the
-/// variables without a proven sign, and the discontinuities.
+/// The distance that an extreme can lie beyond the solution that is followed for it: by the mean value
+/// theorem for the variables without a proven sign, and the discontinuities.
 double ValidatedFlow::Solver::deviation(std::size_t i, bool upper, const std::vector<End>& ends) const {
   Interval sum{-sensitivity_.jump(i), sensitivity_.jump(i)};
   for (std::size_t j = 0; j < n_; ++j) {

@@ -132,7 +132,7 @@ void NominalFlow::cross(const Interval& duration, State& state) {
   }
 }
 
-/// What was free has left its limit.
+/// States that were free have left their limits.
 void NominalFlow::release(State& state) {
   for (std::size_t i = 0; i < box_.size(); ++i) {
     if (phases_[i] == StopPhase::free) state.at_limit[i] = false;

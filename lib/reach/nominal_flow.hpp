@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// What `stop` does to a state during a step, judged by boxes.
+/// The effect of `stop` on a state during a step, judged by boxes.
 enum class StopPhase : std::uint8_t {
   free,  ///< the limit is not felt: never passed, or f does not point out of it
   held,  ///< exactly at the limit, with f pointing out all the time

@@ -128,7 +128,8 @@ void PeriodicFlow::allow_for(std::int64_t turns, Winding& winding) {
   slots_[winding.slots.anywhere] = {lower_double(winding.ring.lower), upper_double(winding.ring.upper)};
 }
 
-/// How many periods a state is beyond its ring at most; on the upper end of one it is in the next.
+/// The number of periods that a state is beyond its ring at most; the upper end of a period is in the next
+/// one.
 std::int64_t PeriodicFlow::turns_of(const Winding& winding, const FlowEnclosure& found) {
   const Interval& tube = found.tube[winding.state];
   if (!std::isfinite(tube.lower) || !std::isfinite(tube.upper)) return kVeryManyTurns + 1;

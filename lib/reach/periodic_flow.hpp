@@ -30,7 +30,7 @@ class PeriodicFlow {
   /// such a box touches `upper`, that point itself is not meant.
   /// @param slots as in ValidatedFlow::flow() @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
-  /// The same of a box that is divided further where that pays: with less work.
+  /// flow() for a part of a box that the caller divides further where that pays: with less work.
   [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> slots);
 
   /// Whether no two solutions can meet within `box`, see ValidatedFlow, and no periodic state that an

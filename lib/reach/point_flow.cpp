@@ -21,13 +21,13 @@ constexpr double kStable = 2.0;
 constexpr int kStiffSteps = 1000;
 /// An interpolant is looked at in so many places.
 constexpr int kLooks = 8;
-/// Of a sub-step.
+/// The precision of the time of an event, as a part of a sub-step.
 constexpr double kEventShare = 0x1p-50;
 /// After so many events that come within this share of the period, none is looked for earlier.
 constexpr int kShortEvents = 50;
 constexpr double kDwell = 0x1p-12;
 
-/// What the error estimate says of the next sub-step, relative to this one.
+/// The length of the next sub-step relative to this one, by the error estimate.
 double growth(double error, double largest) {
   return error > 0.0 ? std::clamp(0.9 * std::pow(error, -0.2), 0.2, largest) : largest;
 }
@@ -207,7 +207,7 @@ void PointFlow::begin_stiffly() {
   stiff_->begin(x_);
 }
 
-/// As advance(), by the solver for stiff systems; an event makes it begin anew.
+/// advance() by the solver for stiff systems, which begins anew after an event.
 bool PointFlow::advance_stiffly(double& left, double& h) {
   if (++steps_ > kMostEvaluations) return false;
   h = stiff_->step(left);

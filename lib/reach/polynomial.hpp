@@ -35,7 +35,7 @@ struct Polynomial {
   [[nodiscard]] static Polynomial unknown();
 };
 
-// What Evaluator<Polynomial> asks for.
+// The operations that Evaluator<Polynomial> needs.
 [[nodiscard]] Polynomial from_rational(const Polynomial* tag, const Rational& q);
 [[nodiscard]] Polynomial apply(Operator op, const Polynomial& a);
 [[nodiscard]] Polynomial apply(Operator op, const Polynomial& a, const Polynomial& b);

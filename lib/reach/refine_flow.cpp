@@ -1,4 +1,4 @@
-// What is done where solutions that were followed do not come close to all ends of an enclosure.
+// Refines an enclosure where followed solutions do not come close to all of its ends.
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +17,19 @@ constexpr std::size_t kMostSteps = 30000;
 constexpr std::size_t kFewSteps = 1000;
 /// Decay by more powers of e in a period cannot be followed in as many.
 constexpr double kTooStiff = 1e7;
-/// What may lie beyond solutions that were followed, as a part of the initial box or of the value itself.
+/// The excess of an enclosure over followed solutions that is allowed, as a part of the initial box or of the
+/// value itself.
 constexpr double kTight = 0.2;
 constexpr double kTightMagnitude = 1e-6;
-/// The same of a state that starts from a point, as a part of a step of the grid.
+/// The allowed excess of a state that starts from a point, as a part of a step of the grid.
 constexpr double kTightStep = 0.1;
-/// A part of what is allowed that is not worth a thought.
+/// A part of the allowed excess below which no refinement is tried.
 constexpr double kHardly = 0.1;
 /// A box of initial states is halved so often at most.
 constexpr int kMostSplits = 2;
 /// A part of a box that leads to more steps of the grid on its way is not followed further.
 constexpr double kWidestPart = 100.0;
-/// What belongs to the neighbourhood of a box, seen from its ends.
+/// The neighbourhood of a box: the distance from its ends, relative to them.
 constexpr double kNeighbourhood = 1e-14;
 
 template <class Combine>
@@ -65,7 +66,7 @@ const FlowEnclosure& ValidatedFlow::Solver::flow_of_part(std::span<const Interva
   return result_;
 }
 
-/// Of a part: smaller ones are worth more than to go on.
+/// Whether a part of a box is so wide that smaller parts are better than to go on.
 bool ValidatedFlow::Solver::is_too_wide() const {
   if (!is_part_ || system_.steps.empty()) return false;
   for (std::size_t i = 0; i < n_; ++i) {
@@ -113,7 +114,7 @@ void ValidatedFlow::Solver::enclose(std::span<const Interval> slots, int halving
   }
 }
 
-/// What may lie beyond solutions that were followed: of a state that starts from a point, seen from the
+/// The excess over followed solutions that is allowed for state i; if it starts from a point, relative to the
 /// result.
 double ValidatedFlow::Solver::allowed_excess(std::size_t i) const {
   return allowed_excess_[i] > 0.0 ? allowed_excess_[i] : kTight * result_.end[i].width();

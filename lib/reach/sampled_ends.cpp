@@ -10,7 +10,7 @@
 namespace coordreq {
 namespace {
 
-/// Of more dimensions only so many have corners of their own; the others follow the last of these.
+/// Number of dimensions with corners of their own; further dimensions follow the last of these.
 constexpr std::size_t kCornerDimensions = 6;
 /// Against the step of the grid; nobody sees more.
 constexpr double kSampleTolerance = 1e-6;

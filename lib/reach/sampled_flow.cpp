@@ -8,7 +8,7 @@
 namespace coordreq {
 namespace {
 
-/// Of sum_k coefficient[k] * s^k over [0, end].
+/// The integral of sum_k coefficient[k] * s^k over [0, end].
 Rational integral_of(const std::vector<Rational>& coefficient, const Rational& end) {
   Rational integral = 0;
   for (std::size_t k = coefficient.size(); k-- > 0;) {

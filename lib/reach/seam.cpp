@@ -58,7 +58,7 @@ class Winder {
   }
 
  private:
-  /// What a node is for. A node can be there for both, so it is written once for each.
+  /// The use of a node. One that is used in both ways is written once for each.
   enum Use : std::uint8_t { kAsNumber, kInTurns };
   struct Copied {
     bool needed = false;
@@ -87,7 +87,8 @@ class Winder {
     return kInTurns;
   }
 
-  /// Nothing unless the node is periodic, as sin is, and a period is whole turns of it, nearly.
+  /// The difference of a period from whole turns of the node; nothing unless the node is periodic, as sin is,
+  /// and the difference is small.
   [[nodiscard]] std::optional<Rational> mismatch_of(const Program::Node& node) const {
     const int half_turns =
         is_number_function(node.op) ? number_function(node.op).half_turns : NumberFunction::kNever;
@@ -123,8 +124,8 @@ class Winder {
     return followed(variable);
   }
 
-  /// Of a state exactly on a seam from below it is `upper`, so that a box which just touches it is not cut.
-  /// What a box that is cut leads to is known to be within the ring, too.
+  /// The value of a state that is followed round. Exactly on a seam, from below, it is `upper`, so that a box
+  /// which just touches the seam is not cut. Boxes that are cut lead to values within the ring, too.
   Index followed(Index x) {
     Index value = x;
     for (int k = 1; k <= kMostTurns; ++k) {

@@ -15,10 +15,10 @@ struct Ring {
   Rational upper;
 };
 
-/// How many times a state that is used as a number is followed round, in either direction.
+/// Number of turns that a state that is used as a number is followed, in either direction.
 inline constexpr int kMostTurns = 4;
 
-/// What stands for the representative of a state that is used as a number.
+/// The representative of a state that is used as a number.
 enum class Representative : std::uint8_t {
   followed,  ///< the value that it has, up to kMostTurns periods beyond the ring
   anywhere,  ///< a new variable, to be taken for anything in [lower, upper]

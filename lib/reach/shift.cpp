@@ -18,7 +18,7 @@ bool mentions(const Program& program, std::uint32_t slot) {
   return std::binary_search(used.begin(), used.end(), slot);
 }
 
-/// The same found over the domain: the derivative is 1 wherever the state can be.
+/// Whether the derivative of the next value is 1 all over the domain.
 bool derivative_is_one(const SystemSpec& spec, std::size_t state) {
   std::vector<Dual> slots(spec.slot_count());
   for (std::size_t i = 0; i < spec.states.size(); ++i) {

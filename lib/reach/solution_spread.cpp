@@ -11,9 +11,9 @@ namespace {
 
 /// The times at which solutions are compared, evenly over the period.
 constexpr Eigen::Index kSpreadLooks = 64;
-/// Of a sub-step, in steps of the grid.
+/// The error of a sub-step, in steps of the grid.
 constexpr double kSpreadError = 1e-3;
-/// What takes more sub-steps is not followed.
+/// Solutions that take more sub-steps are not followed.
 constexpr int kSpreadTries = 4000;
 
 }  // namespace

@@ -124,7 +124,7 @@ std::vector<std::size_t> StateEnclosure::served(const std::vector<std::size_t>& 
   return result;
 }
 
-/// What the value of a state is good for, by its place among those that move.
+/// The cells that measure enclosures of a state, by its position among the states that move.
 EndCells StateEnclosure::cells_of(std::size_t state) const {
   const StateSpec& own = spec_->states[state];
   const auto place =

@@ -48,7 +48,7 @@ class StateEnclosure {
   /// @param state one of those of the constructor
   [[nodiscard]] Result result(std::size_t state) const;
 
-  /// What made the equation at fault undefined in the last enclose(), or nothing known. @pre something did
+  /// The reason why the equation at fault is undefined in the last enclose(); empty if not known. @pre it is
   [[nodiscard]] std::string reason(const Result& result) const;
 
  private:

@@ -19,7 +19,7 @@ void ignore_message(int, const char*, const char*, char*, void*) {}
 
 }  // namespace
 
-/// What CVODE keeps, freed in the opposite order.
+/// The objects of CVODE, freed in the opposite order.
 struct StiffSolver::Memory {
   Memory(Field rhs, std::span<const double> scale, double tolerance)
       : field(std::move(rhs)), x(static_cast<Eigen::Index>(scale.size())), derivative(x.size()) {

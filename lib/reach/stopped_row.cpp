@@ -43,7 +43,7 @@ class Integrator {
   }
 
   [[nodiscard]] const std::optional<Rational>& top() const { return top_; }
-  /// What comes of it from v0, within the limits, at a rate.
+  /// The value that v0 reaches within the limits, at a rate.
   [[nodiscard]] Rational from(const Rational& v0, const Rational& rate) const {
     const Rational moving = time_of_moving(v0, rate);
     const Rational end = v0 + rate * moving;
@@ -118,7 +118,7 @@ class RowMaker {
     return flow_->rows(k, static_cast<Eigen::Index>(j));
   }
 
-  /// What constants add, but for those of stopped states.
+  /// The change by constants, without those of stopped states.
   [[nodiscard]] Rational drift() const {
     const Eigen::Index terms = flow_->rows.rows();
     const RationalVector weights = exponential_terms(spec_.dynamics.period, terms + 1);

@@ -19,7 +19,7 @@ namespace coordreq {
 /// where g_v keeps its sign, so that both ends are taken: the exact hull, as sums over the cells of the
 /// states.
 struct StoppedRow {
-  /// What a cell of one state adds.
+  /// The range that a cell of one state adds.
   struct Part {
     Rational lower;
     Rational upper;

@@ -16,7 +16,7 @@
 namespace coordreq {
 namespace {
 
-/// So many terms of at most kLargestTerm steps each stay below the 2^30 that TransitionTable promises.
+/// Number of terms of at most kLargestTerm steps each that stay below the 2^30 that TransitionTable promises.
 constexpr std::size_t kMostTerms = 14;
 
 /// The table of one state of a group.
@@ -47,7 +47,7 @@ class SumTable {
     const Interval error = enclose(target_.measurement_error) / step_;
     Interval ends = (value - origin) / step_ + Interval{-error.upper, error.upper};
     if (table_.shift) {
-      // What the sum leaves out is the state itself, within its cell; the half step is added as an integer.
+      // The sum leaves out the state itself, within its cell; the half step is added as an integer.
       if (!difference) return false;
       ends = ends + Interval{-error.upper, error.upper};
     }

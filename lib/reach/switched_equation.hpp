@@ -27,7 +27,7 @@ class SwitchedEquation {
   [[nodiscard]] double kept(std::span<const double> slots) { return run(slots, true, false); }
   /// The value as it is. The switches stay where they are.
   [[nodiscard]] double actual(std::span<const double> slots) { return run(slots, false, false); }
-  /// The same, and puts every switch on its side.
+  /// actual(), and puts every switch on its side.
   double settle(std::span<const double> slots) { return run(slots, false, true); }
 
   /// Whether a switch was not on its side in the last run.

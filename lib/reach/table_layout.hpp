@@ -12,7 +12,7 @@ namespace coordreq {
 [[nodiscard]] TransitionTable full_layout(const SystemSpec& spec, const Dependencies& dependencies,
                                           std::size_t state, const Abstraction& abstraction);
 
-/// The same as a sum, with a term for each of summed_states(). @pre there are any
+/// full_layout() as a sum, with a term for each of summed_states(). @pre there are any
 [[nodiscard]] TransitionTable sum_layout(const SystemSpec& spec, const Dependencies& dependencies,
                                          const AffinePart& part, std::size_t state, const UniformGrid& grid,
                                          const InputSpace& inputs);

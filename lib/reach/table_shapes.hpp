@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// What the table of every state depends on, in which form it will be kept, and how large it gets.
+/// The variables, form and size of the table of every state.
 /// @throws SpecError as build_abstraction() does where an equation is undefined
 [[nodiscard]] std::vector<TableShape> table_shapes(const SystemSpec& spec);
 

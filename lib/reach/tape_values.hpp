@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// What a choice of a FlowTape amounts to over some box.
+/// The result of a choice of a FlowTape over some box.
 struct Choice {
   enum class Kind : std::uint8_t {
     first,          ///< p; of an angle: itself

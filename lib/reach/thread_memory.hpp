@@ -2,8 +2,8 @@
 
 namespace coordreq {
 
-/// What a thread takes while it encloses posts, in bytes: series and boxes, and what the allocator
-/// sets aside for them. Measured with flows.
+/// Memory of a thread that encloses posts, in bytes: series and boxes, with the reserve of the allocator.
+/// Measured with flows.
 inline constexpr double kBytesOfPostThread = 320.0 * 1024;
 
 }  // namespace coordreq

@@ -45,7 +45,7 @@ void fill_affine_tube(const AffinePost& post, const std::vector<SampledRow>& row
     post.fill(tube, base, [&](const auto& cell) { return covering_from_pieces(post, rows, cell); });
     return;
   }
-  // As cells_covering() does it; the own cell is in the tube, so that first <= last.
+  // As cells_covering(); the own cell is in the tube, so that first <= last.
   const GridDimension& target = post.grid[post.state];
   const Rational reach = (target.radius() + target.measurement_error) / target.step;
   std::vector<IndexForm> lower;

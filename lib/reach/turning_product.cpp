@@ -64,7 +64,7 @@ Interval TurningProduct::entry(Eigen::Index i, Eigen::Index j) const {
 RealMatrix TurningProduct::orthogonal(const RealMatrix& columns) const {
   const RealVector reach =
       magnitudes(rest_).rowwise().sum().cwiseProduct(columns.colwise().norm().transpose());
-  // What has overflowed has no place in an order.
+  // Widths that have overflowed cannot be ordered.
   const RealVector widths = reach.unaryExpr([](double x) { return std::isfinite(x) ? x : HUGE_VAL; });
   std::vector<Eigen::Index> order(static_cast<std::size_t>(columns.cols()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});

@@ -21,8 +21,8 @@ namespace coordreq {
 /// discrete states and inputs are points, and nothing else is read outside of conditions. Conditions are
 /// asked of the closed cell, widened by the measurement error; several of them branch independently.
 ///
-/// What a memory keeps follows from the truth of its conditions at the cell, which is three-valued: the next
-/// value is one. They are asked as `safe` is.
+/// The next value of a memory is one value: it follows from the truth of its conditions at the cell, which
+/// has three values. Conditions are decided as `safe` is.
 ///
 /// Scratch inside: one object a thread.
 class UpdateRanges {

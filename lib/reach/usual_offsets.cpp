@@ -30,7 +30,7 @@ std::vector<IndexRange> usual_offsets(const SystemSpec& spec) {
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const GridSpec& grid = spec.states[i].grid;
     std::vector<Interval> own = slots;
-    // Of x + g that is g.
+    // For the equation x + g this is g.
     if (is_discrete) own[spec.state_slot(i)] = Interval(0, 0);
     Evaluator<Interval> evaluator(spec.dynamics.equations[i]);
     const Interval moved = evaluator.number(own);

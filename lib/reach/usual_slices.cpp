@@ -100,7 +100,8 @@ double segments_of(const Row& row) {
   return segments;
 }
 
-/// How many kinds there are, by how often those that were drawn came (Chao's estimator), on the high side.
+/// The number of kinds, from the numbers of times that the drawn ones came (Chao's estimator), on the high
+/// side.
 double kinds(const std::map<Row, int>& drawn, double all) {
   constexpr double kFew = 3, kMore = 1.5;
   double once = 0, twice = 0;

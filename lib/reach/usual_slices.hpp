@@ -7,8 +7,8 @@
 
 namespace coordreq {
 
-/// What a table says of the rows along one state: in how many pieces all of whose cells move alike, or to the
-/// same place, and how many rows are different.
+/// The rows of a table along one state: the number of segments, whose cells all move alike or to the same
+/// place, and the number of different rows.
 struct UsualSlices {
   double segments = 1;   ///< of a row
   double different = 1;  ///< rows, of all choices of other states and inputs that the table depends on

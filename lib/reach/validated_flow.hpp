@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// What is known of the solutions of a FlowSystem from a box of initial states.
+/// An enclosure of the solutions of a FlowSystem from a box of initial states.
 struct FlowEnclosure {
   enum class Status : std::uint8_t {
     ok,
@@ -63,7 +63,7 @@ class ValidatedFlow {
   /// @param slots bounded boxes of all states, disturbances, inputs and parameters at their slots
   /// @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
-  /// The same of a box that is divided further where that pays: with less work.
+  /// flow() for a part of a box that the caller divides further where that pays: with less work.
   [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> slots);
 
   /// Whether no two solutions can meet within `box`, one interval a state: f is defined and has a Lipschitz

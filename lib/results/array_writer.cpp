@@ -41,7 +41,7 @@ double ArrayWriter::bytes(double longest, int threads) {
   if (chunk == 0) return 0;
   const double chunks = std::ceil(longest / chunk);
   const double batch = std::min(chunks, static_cast<double>(kChunksPerThread) * threads);
-  // Of a few chunks each goes to another thread in the next array.
+  // If an array has few chunks, those of the next array go to other threads.
   const double busy = std::min<double>(threads, 4 * chunks);
   return busy * (kCopies * chunk + ChunkCodec::kBytes) + kUsualPacking * batch * chunk;
 }

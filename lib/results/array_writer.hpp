@@ -23,7 +23,7 @@ class ArrayWriter {
  public:
   static constexpr std::size_t kChunksPerThread = 4;
 
-  /// What writing arrays of at most so many bytes takes.
+  /// Memory of writing arrays of at most `longest` bytes.
   [[nodiscard]] static double bytes(double longest, int threads);
 
   /// @param driver the one that the files are written with

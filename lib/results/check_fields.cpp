@@ -34,7 +34,7 @@ class FieldChecker {
   }
 
  private:
-  /// What the library keeps of one that is open.
+  /// Memory of the library for an open dataset.
   static constexpr double kBytesOfDataset = 24.0 * 1024;
 
   [[nodiscard]] double datasets(const Fields& table) const {
@@ -90,7 +90,7 @@ class FieldChecker {
            field.axes.end();
   }
 
-  /// As read: eight bytes an element, what is stored, and a copy of another type.
+  /// Counts a dataset that is read: eight bytes an element as read, as stored, and as a copy of another type.
   void count_bytes(std::uint64_t elements) { bytes_ += elements * 24; }
 
   void check_coordinates(const Field& field) const {

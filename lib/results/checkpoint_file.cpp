@@ -50,7 +50,7 @@ std::string system_error() {
   throw ResultsError("this checkpoint is damaged: " + what, path);
 }
 
-/// What has not been read because it could not be, or is not there.
+/// The error of a read that failed, or met the end of the file.
 [[noreturn]] void fail_to_read(const std::ifstream& file, const std::string& path) {
   if (file.bad()) throw IoError("cannot be read: " + system_error(), path);
   fail("it is cut short", path);
@@ -61,7 +61,7 @@ void read_exactly(std::ifstream& file, void* bytes, std::size_t count, const std
   if (!file.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count))) fail_to_read(file, path);
 }
 
-/// Of a block that has so many bytes when it is not packed.
+/// The packed length of a block that has `bytes` bytes unpacked.
 std::uint32_t read_length(std::ifstream& file, std::int64_t bytes, const std::string& path) {
   std::uint32_t length = 0;
   read_exactly(file, &length, sizeof(length), path);

@@ -37,7 +37,8 @@ class CheckpointWriter {
   CheckpointWriter(const CheckpointWriter&) = delete;
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
-  /// What is added from now on belongs to this section. @param more what else is to be said of it, an object
+  /// Begins a section: lists that are added from now on belong to it. @param more members of its head, an
+  /// object
   void begin(const std::string& section, const Json& more);
   void add(const NumberRows& rows);
   /// @pre unchecked: all has been added. @returns the SHA-256 at the end of the file
@@ -72,7 +73,7 @@ class CheckpointReader {
   /// SHA-256 at its end.
   [[nodiscard]] const std::string& digest() const { return digest_; }
 
-  /// What is read from now on is in this section. @returns what it says of itself; null if it is not there
+  /// Begins to read a section. @returns the members of its head; null if it is not there
   [[nodiscard]] Json begin(const std::string& section);
   /// Fills in the next list. @returns false if it has other numbers, or another count of them
   [[nodiscard]] bool read(const NumberRows& rows);

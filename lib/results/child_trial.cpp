@@ -25,7 +25,7 @@ constexpr char kDone = '+';
 /// Processor time: a damaged list can be endless. Reading what is not damaged takes some hundredths of it.
 constexpr rlim_t kLeastSeconds = 5;
 constexpr rlim_t kBytesASecond = rlim_t{1} << 20U;
-/// What the library may take more than this process has already, damaged as a file may be.
+/// Memory that the library may take beyond that of this process, however damaged a file is.
 constexpr rlim_t kMostBytes = rlim_t{1} << 30U;
 
 void send(int pipe, const std::string& text) {
@@ -38,7 +38,7 @@ void send(int pipe, const std::string& text) {
   }
 }
 
-/// What comes until the other end closes.
+/// The text that comes until the other end closes.
 std::string receive(int pipe) {
   std::string text;
   std::array<char, 4096> block{};
@@ -104,7 +104,7 @@ bool is_short_of_memory() {
          (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur < present_bytes() + kMostBytes);
 }
 
-/// What the parent has to know: kDone, or the exit code and text of an Error.
+/// The message for the parent: kDone, or the exit code and text of an Error.
 std::string outcome_of(const std::function<void()>& read) {
   try {
     read();

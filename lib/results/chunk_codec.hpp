@@ -24,7 +24,7 @@ inline constexpr int kDeflateLevel = 1;
 /// of the last ones are remembered with what became of them.
 class ChunkCodec {
  public:
-  /// Of a compressor, beside its chunks.
+  /// Memory of a compressor, beside its chunks.
   static constexpr double kBytes = 256.0 * 1024;
 
   ChunkCodec();

@@ -19,7 +19,7 @@ std::string unit_text(const std::string& unit) {
   return unit.empty() ? "none" : fmt::format("'{}'", unit);
 }
 
-/// What the two files call different things.
+/// The names that mean different things in the two files.
 class Difference {
  public:
   Difference(const ResultsReader& before, const ResultsReader& after) : before_(before), after_(after) {}

@@ -165,7 +165,7 @@ std::vector<EntryPair> common_entries(const ResultsReader& before, const Results
   return pairs;
 }
 
-/// Of every common entry, where the field has a leading axis.
+/// Compares a field: every common entry, where it has a leading axis.
 void add_values(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
                 const Field& field, ResultsComparison& result) {
   const ValueComparison begun{.name = field.path.substr(1), .words = field.shown.compared};

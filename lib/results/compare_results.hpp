@@ -10,7 +10,7 @@
 
 #include "results/results_reader.hpp"
 
-// What a later result of the same grid has lost and gained against an earlier one.
+// The losses and gains of a later result of the same grid against an earlier one.
 namespace coordreq {
 
 /// A set of cells in both files, as the field says that it is called there and in words.
@@ -48,8 +48,7 @@ struct ValueComparison {
   std::int64_t lost = 0;          ///< cells with a smaller value than before
   std::int64_t left = 0;          ///< of these, cells that have left K
   std::int64_t from_forever = 0;  ///< of these, cells that are in K and were unbounded
-  /// Of these, cells with the last delay before `max_delay` of the later file: perhaps they have lost
-  /// nothing.
+  /// of these, cells with the last delay before `max_delay` of the later file: perhaps they have lost nothing
   std::int64_t cut_off = 0;
   std::int64_t tolerated = 0;      ///< cells that lost steps, but no more than is tolerated; not in `lost`
   std::int64_t gained = 0;         ///< cells with a larger value than before

@@ -58,7 +58,7 @@ void check_pairs(const std::string& path, Kind kind, const ProblemSpec& spec) {
   kind == Kind::hdf5 ? check_stored_controller(path, spec) : check_scots_controller(path, spec);
 }
 
-/// The same pairs for `copies` cells instead of each.
+/// Pairs in which each cell stands for `copies` cells.
 PackedPairs repeated(const PackedPairs& pairs, std::int64_t copies) {
   PackedPairs result{.inputs = pairs.inputs, .bytes = {}};
   const auto width = static_cast<std::ptrdiff_t>(pairs.bytes_per_cell());

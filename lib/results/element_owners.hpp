@@ -25,7 +25,7 @@ class ElementOwners {
   virtual void for_each_run(std::uint64_t begin, std::uint64_t count, const Visit& visit) const = 0;
 };
 
-/// Of an array over cells: those who own the rows of the cells.
+/// The owners of an array over cells: the processes that own the rows of the cells.
 class CellOwners : public ElementOwners {
  public:
   /// @param of_cell elements of each cell. @pre unchecked: the others outlive this object.
@@ -41,7 +41,8 @@ class CellOwners : public ElementOwners {
   std::uint64_t of_cell_;
 };
 
-/// Of lists of cells, one after the other: each process has some neighbouring cells of each list.
+/// The owners of lists of cells that are stored one after the other: each process has some neighbouring cells
+/// of each list.
 class ListOwners : public ElementOwners {
  public:
   /// @param sizes [list, rank] how many cells the process has

@@ -33,7 +33,8 @@ std::vector<Part> parts_of(const ElementOwners& owners, const GatheredStretch& s
   return parts;
 }
 
-/// What this rank knows of a stretch: at its place if it takes it, else one part after the other.
+/// Fills in the values of a stretch that this rank has: at their places if it takes the stretch, else one
+/// part after the other.
 void fill_own(Work& work, int own, const ResultArray& array) {
   GatheredStretch& all = *work.stretch;
   const std::size_t size = element_size(array.type);

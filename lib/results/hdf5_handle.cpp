@@ -99,7 +99,7 @@ void write_attribute(const Handle& object, const std::string& name, hid_t type, 
 }  // namespace
 
 QuietErrors::QuietErrors() {
-  // What the library does at exit, it does aloud when memory is short; all that we open is closed by then.
+  // At exit the library prints errors when memory is short; everything that we open is closed by then.
   static_cast<void>(H5dont_atexit());
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -16,7 +16,7 @@
 namespace coordreq::hdf5 {
 namespace {
 
-/// What the access property list carries to open_output().
+/// The data that the access property list carries to open_output().
 struct DriverInfo {
   int* first_error;
 };
@@ -84,7 +84,7 @@ haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t /*type*/) {
   return state_of(file).end_of_file;
 }
 
-/// What was never written reads as zeros.
+/// Bytes that were never written read as zeros.
 herr_t read_output(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t place, std::size_t size,
                    void* buffer) {
   auto* out = static_cast<char*>(buffer);

@@ -130,7 +130,7 @@ std::string create_temporary(const fs::path& folder, std::optional<mode_t> mode)
   throw IoError("cannot create a file in the folder: too many temporary files", folder.string());
 }
 
-/// The same beside the target, under a name that says whose it is: see remove_unfinished().
+/// Creates a file beside the target, under a name that says whose it is: see remove_unfinished().
 std::string create_beside(const std::string& target, const std::string& suffix, std::optional<mode_t> mode,
                           const std::string& what) {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {

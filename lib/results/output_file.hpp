@@ -8,7 +8,7 @@ namespace coordreq {
 /// which commit() syncs and gives its name. Without commit() the destructor removes it, and what was there
 /// before stays untouched.
 ///
-/// What processes of this machine that were killed have left of temporary files in the folder is removed.
+/// Removes temporary files in the folder that killed processes of this machine have left.
 ///
 /// Where `path` is a symbolic link, the file that it points to is replaced and the link stays. A replaced
 /// file keeps its permission bits.
@@ -32,7 +32,7 @@ class OutputFile {
 
   /// @throws IoError if the content could not be brought to the disk
   void commit();
-  /// The same unless there is a file of this name already. @returns false if there is
+  /// commit(), unless there is a file of this name already. @returns false if there is
   [[nodiscard]] bool commit_new();
 
  private:

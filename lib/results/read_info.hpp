@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-/// What `info` says of a results file: where it comes from, its axes, what each answer tells of itself, and
+/// The document of `info`: the origin of a results file, its axes, the members of each answer, and
 /// `datasets`: paths, sorted, without bare dimensions, which hold no data.
 /// @param max_memory as of ResultsReader. @throws as ResultsReader
 [[nodiscard]] Json read_info(const std::string& path, std::optional<std::uint64_t> max_memory = std::nullopt);

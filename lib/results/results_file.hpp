@@ -28,9 +28,9 @@ class ResultsFile {
   /// @throws ResultsError also if it is not finite
   [[nodiscard]] double number(const std::string& path, const std::string& attribute) const;
   [[nodiscard]] std::int64_t integer(const std::string& path, const std::string& attribute) const;
-  /// The same, which must not be negative.
+  /// An integer that must not be negative.
   [[nodiscard]] std::uint64_t natural(const std::string& path, const std::string& attribute) const;
-  /// A list of so many of them. @pre count >= 1
+  /// A list of `count` integers that must not be negative. @pre count >= 1
   [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& path, const std::string& attribute,
                                                     std::uint64_t count) const;
   [[nodiscard]] bool has(const std::string& path, const std::string& attribute) const;
@@ -66,7 +66,7 @@ class ResultsFile {
 
   /// Paths of the dimension scales of a dataset, one an axis.
   [[nodiscard]] std::vector<std::string> axis_paths(const std::string& dataset) const;
-  /// The same without their groups.
+  /// Names of the dimension scales of a dataset, without their groups.
   [[nodiscard]] std::vector<std::string> axes(const std::string& dataset) const;
   /// Names of what the group holds, in the order in which it was written.
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;

@@ -77,7 +77,7 @@ class PartsReader {
       fail("expected the spec without its comments, found another text", "/spec_json");
   }
 
-  /// What the analysis has counted.
+  /// Reads the numbers that the analysis has counted.
   void read_found() {
     for (const Field& field : parts_.fields) {
       for (const FieldAttribute& attribute : field.attributes) read_count(field, attribute);
@@ -101,7 +101,7 @@ class PartsReader {
     parts_.counted[field.path] = file_.naturals(field.path, "cells", count);
   }
 
-  /// Of each state, from the axes that its table has.
+  /// Reads the dependencies of each state, from the axes of its table.
   void read_tables() {
     const ProblemSpec& spec = parts_.spec;
     for (const Field& field : parts_.fields) {

@@ -46,7 +46,7 @@ std::vector<std::int32_t> widened(const std::vector<Integer>& values) {
   return result;
 }
 
-/// Of unpacked chunks: a part of what is left.
+/// Memory for unpacked chunks: a part of the memory that is left.
 std::size_t cache_bytes(std::optional<std::uint64_t> max_memory) {
   constexpr double kLeast = double{1U << 20U}, kMost = 128 * kLeast;
   if (!max_memory) return static_cast<std::size_t>(kMost);
@@ -137,7 +137,7 @@ double ResultsReader::reading_bytes() const {
 
 std::size_t ResultsReader::leading_length(const Field& field) const {
   if (field.axes.size() <= grid_.size()) return 0;
-  // Of a field of bits the axis that is more comes last.
+  // A field of bits has one axis more, which comes last.
   const auto& first = this->field(field.axes.front()).scale->coordinates;
   const auto* const names = std::get_if<std::vector<std::string>>(&first);
   return names == nullptr ? 0 : names->size();
@@ -197,7 +197,7 @@ std::vector<float> ResultsReader::reals(const Field& field, Leading leading, con
   const Part part(leading, block);
   std::vector<float> values = elements<float>(field.path, ElementType::float32, part.offset, part.count);
   if (field.kind != FieldKind::probability) return values;
-  // As an integer -0 would be less than all others.
+  // -0 is refused: as an integer it would be less than all others.
   const auto found = std::find_if(values.begin(), values.end(), [](float value) {
     return !(value >= 0 && value <= 1) || std::signbit(value);
   });

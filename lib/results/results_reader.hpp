@@ -51,17 +51,17 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Bytes that reading may take, if that is limited.
   [[nodiscard]] std::optional<std::uint64_t> max_memory() const { return max_memory_; }
-  /// What reading cells takes, at most a part of them at a time (kPartCells), with the chunks that are kept.
+  /// Memory of reading cells, at most kPartCells at a time, with the chunks that are kept.
   [[nodiscard]] double reading_bytes() const;
   /// The embedded spec, read by read_spec().
   [[nodiscard]] const ProblemSpec& spec() const;
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
   [[nodiscard]] const InputSpace& inputs() const { return inputs_; }
   [[nodiscard]] const StoredAttributes& attributes() const;
-  /// As many as the spec has, in its order.
+  /// The partitions of the spec, in its order.
   [[nodiscard]] const std::vector<StoredPartition>& partitions() const;
 
-  /// What the file holds.
+  /// The fields that the file has.
   [[nodiscard]] const Fields& fields() const;
   [[nodiscard]] bool has(const std::string& path) const override { return field_of_path_.contains(path); }
   /// @pre the file has it
@@ -69,7 +69,7 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] double elements(const Field& field) const;
   /// Entries along the axis before those of the cells; 0: there is none.
   [[nodiscard]] std::size_t leading_length(const Field& field) const;
-  /// What each entry along that axis is called. @pre there is one
+  /// Names of the entries along the leading axis. @pre there is one
   [[nodiscard]] const std::vector<std::string>& leading_names(const Field& field) const;
   /// The number of steps of a field over partitions that says `at least`, since `max_delay` ended the
   /// iteration; none if F is known. @pre partition < partitions().size()
@@ -80,12 +80,13 @@ class ResultsReader : public FieldSource {
   /// probabilities the bits, see probability_of().
   [[nodiscard]] std::vector<std::int32_t> values(const Field& field, Leading leading,
                                                  const CellBlock& block) const;
-  /// The same of sets: 0 or 1.
+  /// values() of a field that is a set: 0 or 1.
   [[nodiscard]] std::vector<std::uint8_t> members(const Field& field, Leading leading,
                                                   const CellBlock& block) const;
-  /// The same of shares and probabilities.
+  /// values() of a field of shares or probabilities.
   [[nodiscard]] std::vector<float> reals(const Field& field, Leading leading, const CellBlock& block) const;
-  /// Of a field of m actions: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of byte a / 8.
+  /// The values of a field of m actions: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of
+  /// byte a / 8.
   [[nodiscard]] std::vector<std::uint8_t> bits(const Field& field, const CellBlock& block) const;
   /// The bytes along the last axis of a field of them, at a place along all others.
   [[nodiscard]] std::vector<std::uint8_t> bytes(const Field& field,
@@ -94,7 +95,7 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::vector<std::uint8_t> bytes(const Field& field) const;
   /// The length of an axis. @pre the file has it
   [[nodiscard]] std::uint64_t length(const std::string& scale) const;
-  /// The same by path. @pre the file has it
+  /// values() of the field at a path. @pre the file has it
   [[nodiscard]] std::vector<std::int32_t> values(const std::string& path, Leading leading,
                                                  const CellBlock& block) const {
     REQUIRES(has(path));

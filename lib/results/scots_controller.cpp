@@ -147,7 +147,7 @@ std::vector<std::int64_t> ScotsText::naturals(std::string_view text) const {
   return numbers;
 }
 
-/// As the spec has it.
+/// An axis as the spec has it.
 struct Axis : scots::Axis {
   /// [number along the grid] index in the spec; values may be listed in any order.
   std::vector<std::int64_t> index;

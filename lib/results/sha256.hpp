@@ -12,17 +12,17 @@ class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  /// Of all so far, as 64 lower-case hexadecimal digits.
+  /// The digest of all bytes so far, as 64 lower-case hexadecimal digits.
   [[nodiscard]] std::string hex() const;
 
  private:
   sha256_ctx context_;
 };
 
-/// That of the bytes of `text`.
+/// The digest of `text`, in hexadecimal digits.
 [[nodiscard]] std::string sha256_hex(std::string_view text);
 
-/// That of the bytes of a file. @throws IoError
+/// The digest of a file, in hexadecimal digits. @throws IoError
 [[nodiscard]] std::string sha256_of_file(const std::string& path);
 
 }  // namespace coordreq

@@ -18,12 +18,12 @@ namespace coordreq {
 class ChunkCache {
  public:
   using Bytes = std::vector<std::byte>;
-  /// Of an array and the number of a chunk of it.
+  /// The array and the number of its chunk.
   using Key = std::pair<const void*, std::uint64_t>;
 
   explicit ChunkCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// Nothing if it is not there. Good until the next keep().
+  /// The bytes of a chunk; null if they are not kept. Valid until the next keep().
   [[nodiscard]] const Bytes* find(const Key& key);
   const Bytes& keep(const Key& key, Bytes bytes);
 
@@ -60,7 +60,7 @@ class StoredArray {
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
   [[nodiscard]] std::uint64_t elements() const { return elements_; }
 
-  /// That its elements are there. @throws ResultsError
+  /// Checks that the file has all elements of the array. @throws ResultsError if not
   void check_storage() const;
 
   /// The elements offset[i], ..., offset[i] + count[i] - 1 of every dimension, row-major, into `out`.

@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// What a results file says about one of its objects besides its elements, as stored.
+/// The attributes and axes of an object of a results file, as stored.
 struct StoredObject {
   std::string path;
   std::map<std::string, std::string> texts;  ///< attributes that are strings

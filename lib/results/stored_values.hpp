@@ -6,7 +6,7 @@
 
 namespace coordreq {
 
-/// What a results file says of itself, as stored; contract section 4.
+/// The attributes of a results file, as stored; contract section 4.
 struct StoredAttributes {
   std::string title, conventions, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
   double period = 0;

@@ -79,7 +79,8 @@ ResultArray points(const GridPoints& grid) {
           }};
 }
 
-/// Nothing if the scale is not there. @throws std::invalid_argument if nobody has found it
+/// The length of the scale of a field; nothing if the file does not have it. @throws std::invalid_argument if
+/// no length was found
 std::optional<std::uint64_t> length_of(const Field& field, const FieldValues& values) {
   const FieldScale& scale = *field.scale;
   const auto found = values.lengths.find(field.path);
@@ -89,7 +90,7 @@ std::optional<std::uint64_t> length_of(const Field& field, const FieldValues& va
   return scale.least;
 }
 
-/// What was found for a field. @throws std::invalid_argument if that is nothing, or of another type
+/// The values found for a field. @throws std::invalid_argument if there are none, or of another type
 const FieldValues::Entry& entry_of(const Field& field, const FieldValues& values) {
   const auto found = values.entries.find(field.path);
   if (found == values.entries.end()) throw std::invalid_argument("no values of " + field.path);
@@ -185,7 +186,7 @@ class FieldsWriter {
   std::map<std::string, std::uint64_t> lengths_;
 };
 
-/// What ranks but the first do while that writes the fields.
+/// The work of all ranks but the first, while the first one writes the fields.
 void hand_over(const ProblemSpec& spec, const Fields& fields, const FieldValues& values, RankChunks& ranks) {
   std::map<std::string, std::uint64_t> lengths;
   for (const Field& field : fields) {

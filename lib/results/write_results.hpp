@@ -38,7 +38,7 @@ void write_fields(const std::string& path, const FileKind& kind,
                   const Fields& fields, const FieldValues& values, ThreadTeam& team,
                   RankChunks* ranks = nullptr);
 
-/// What that takes. @param longest bytes of the longest field, before it is packed
+/// Memory of write_results(), in bytes. @param longest bytes of the longest field, before it is packed
 [[nodiscard]] double write_results_bytes(const ProblemSpec& spec, double longest, int threads);
 
 /// @throws IoError as write_results() would for reasons that are known before the work starts, so that a long

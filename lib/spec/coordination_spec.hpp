@@ -42,18 +42,18 @@ struct NetworkModeSpec {
   std::string name;         ///< as given, or the history of losses (see loss_automaton.hpp)
   PartitionSpec partition;  ///< who is connected; not necessarily one of CoordinationSpec::partitions
 };
-/// What a probability may be, 0 <= low <= high <= 1; anything in between, anew in each step.
+/// The range of a probability, 0 <= low <= high <= 1: any value in it, another one in each step.
 struct ProbabilityRange {
   Rational low;
   Rational high;
 };
-/// Whatever its kind is, the network as an automaton, and the numbers that it was unfolded from.
+/// A network of any kind as an automaton, and the numbers that it was unfolded from.
 struct NetworkSpec {
   NetworkKind kind = NetworkKind::automaton;
   std::vector<NetworkModeSpec> modes;                              ///< the first one is the initial mode
   std::vector<std::pair<std::int32_t, std::int32_t>> transitions;  ///< indices into modes; each has one
-  /// Of each transition, if the network has numbers, else none. Those of a mode can be 1 in sum, with each of
-  /// them at either end of its range, of which the upper one is above 0.
+  /// [transition], empty if the network has no numbers. The probabilities of a mode can add up to 1 with each
+  /// of them at either end of its range; every upper end is above 0.
   std::vector<ProbabilityRange> probabilities;
   std::int64_t delay = 0;
   std::int64_t burst_length = 0, burst_gap = 0;
@@ -62,7 +62,7 @@ struct NetworkSpec {
   bool resynthesise = false;
 };
 
-/// What is asked of the probability to leave K. Only beside a network with numbers.
+/// The question about the probability of leaving K. Only beside a network with numbers.
 struct RiskSpec {
   std::int64_t horizon = 0;              ///< steps, at least 1; from "horizon_time" by ceil(time / period)
   std::optional<Rational> horizon_time;  ///< as written; `horizon` has its steps

@@ -25,7 +25,7 @@ class Definitions {
   /// before
   void add(const std::string& name, Program program);
 
-  /// What stands for the definition in an expression; not defined if there is none of that name.
+  /// The meaning of a name of a definition in an expression; NotDefined if there is none of that name.
   [[nodiscard]] Binding find(std::string_view name) const;
 
   /// `program` with every definition it mentions put in. Cost: linear in the size of all that it needs.

@@ -23,7 +23,7 @@ bool is_broken(std::string_view token) {
          !nlohmann::json::accept(token);
 }
 
-/// What may follow the tokens before `start`.
+/// The tokens that may follow those before `start`, in words.
 std::string_view expected_at(const JsonText& json, std::size_t start, JsonLevel level) {
   const std::size_t before = json.token_before(start);
   const std::string_view last = json.token(before);

@@ -13,7 +13,7 @@ namespace {
 /// Losses that matter, as their distances from the next step, ascending: 1 is the present step.
 using Losses = std::vector<std::int32_t>;
 
-/// As many letters as the oldest loss of all needs, at least one.
+/// Names of modes, with as many letters as the oldest loss of all modes needs, at least one.
 std::vector<std::string> names_of(const std::vector<const Losses*>& modes) {
   std::int64_t letters = 1;
   for (const Losses* losses : modes)
@@ -120,7 +120,7 @@ std::optional<LossAutomaton> burst_automaton(std::int64_t length, std::int64_t g
 std::optional<LossAutomaton> weakly_hard_automaton(std::int64_t misses, std::int64_t window,
                                                    std::size_t most_modes) {
   REQUIRES(0 <= misses && misses <= window && 1 <= window);
-  // As many modes as there are ways to lose `misses` of a window: see still_limiting(). All lost: two.
+  // One mode for each way to lose `misses` steps of a window: see still_limiting(). All lost: two modes.
   if (exceeds_binomial(window, misses, static_cast<std::int64_t>(most_modes))) return std::nullopt;
   const auto successors = [misses, window](const Losses& losses) {
     std::vector<Losses> result = {still_limiting(aged(losses, false), misses, window)};

@@ -19,7 +19,7 @@ Rational read_bound(const Scope& scope, const JsonDocument::Node& node) {
   return value;
 }
 
-/// Of the transitions that leave a mode.
+/// The sums of the ranges of the transitions that leave a mode.
 struct Sums {
   Rational low;
   Rational high;
@@ -64,7 +64,7 @@ void settle_probabilities(NetworkSpec& network, const std::string& pointer) {
   for (std::size_t t = 0; t < network.transitions.size(); ++t) {
     const Sums& own = sums[static_cast<std::size_t>(network.transitions[t].first)];
     const ProbabilityRange& range = network.probabilities[t];
-    // What the others leave over, at the most and at the least.
+    // The rest that the other transitions leave, at most and at least.
     const Rational most = 1 - (own.low - range.low);
     const Rational least = 1 - (own.high - range.high);
     ProbabilityRange narrow{std::max(range.low, least), std::min(range.high, most)};

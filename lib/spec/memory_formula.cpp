@@ -56,7 +56,7 @@ class FormulaReader {
     return result;
   }
 
-  /// That the text does not have. No longer than a call: "once(a)".
+  /// A name that the text does not have, no longer than a call: "once(a)".
   std::string new_name() {
     std::string name;
     do name = "q" + std::to_string(names_++);
@@ -83,8 +83,8 @@ class FormulaReader {
     return number;
   }
 
-  /// Of a call whose name ends at `at`; none if what follows is no list in parentheses, which is for the
-  /// parser to say.
+  /// The arguments of a call whose name ends at `at`; none if no list in parentheses follows, which the
+  /// parser will say.
   [[nodiscard]] std::vector<Range> arguments_of(std::size_t at, std::size_t end) const {
     Token token = read_token(place_.text, at);
     if (token.kind != TokenKind::open) return {};

@@ -14,7 +14,7 @@
 
 namespace coordreq {
 
-/// What a name in an expression stands for.
+/// The kind of a name in an expression.
 enum class NameKind : std::uint8_t { state, input, disturbance, constant, definition, memory };
 
 /// "state", "input", ...

@@ -9,8 +9,8 @@
 
 namespace coordreq {
 
-/// What one operator of a memory keeps in one discrete state (contract, section 6). Truths are kept as 0 no,
-/// 1 yes, or, where an argument can be undecided, as 0 no, 1 undecided, 2 yes; counts as they are.
+/// An operator of a memory, which is kept in one discrete state (contract, section 6). Truths are kept as 0
+/// no, 1 yes, or, where an argument can be undecided, as 0 no, 1 undecided, 2 yes; counts as they are.
 struct PastOperator {
   enum class Kind : std::uint8_t { once, previous, since, within, for_last };
   Kind kind = Kind::once;
@@ -24,7 +24,7 @@ struct PastOperator {
   [[nodiscard]] bool is_counted() const { return kind == Kind::within || kind == Kind::for_last; }
   [[nodiscard]] std::int64_t values() const { return is_counted() ? samples : three_valued ? 3 : 2; }
 
-  /// What is kept before the next sample, given what the arguments are worth at this one.
+  /// The value that is kept before the next sample, given the truths of the arguments at this one.
   [[nodiscard]] std::int64_t next(Truth one, Truth other, std::int64_t before) const {
     const auto level = [this](Truth truth) -> std::int64_t {
       if (truth == Truth::undecided) return 1;

@@ -32,7 +32,7 @@ struct MemorySpec {
       states;  ///< that keep it, among the last ones of ProblemSpec::states; perhaps none
 };
 
-/// What agents do by themselves while they are silent, and what they do for ever if they never connect again:
+/// The rules of agents while they are silent, and those that hold for ever if they never connect again:
 /// conditions over inputs of the agent and states that it sees (contract, section 9), asked of grid points as
 /// ControllerSpec::allow is.
 struct SilenceSpec {
@@ -47,10 +47,10 @@ struct RequirementSpec {
   Program where;  ///< over states
   RequirementKind kind = RequirementKind::min_delay;
   std::optional<std::int32_t> partition;  ///< index into partitions; none where it is about all of them
-  /// What is asked for, 0 for `invariant`. From a time by ceil(time / period), an upper limit by floor. Of
-  /// `max_risk` n: its rate is added so often.
+  /// The steps that are required, 0 for `invariant`: of a least time ceil(time / period), of a greatest time
+  /// floor(time / period). Of `max_risk` the number n of times that its rate is added.
   std::int64_t steps = 0;
-  Rational risk = 0;  ///< of `max_risk`: what is asked for
+  Rational risk = 0;  ///< of `max_risk`: the greatest risk
   std::string per;    ///< likewise, "s", "min" or "h"; empty: within the horizon
 
   [[nodiscard]] bool is_of_partition() const {
@@ -68,7 +68,7 @@ struct OutputSpec {
 
 struct ProblemSpec : SystemSpec {
   std::string text;  ///< the spec as read, UTF-8
-  /// As its author has written it, where that is another text; null: it is the same.
+  /// The spec as its author has written it, where that differs from `text`; null: it does not.
   std::shared_ptr<const WrittenSpec> written;
   std::string folder;  ///< where relative paths start; empty: the current one
   std::string name;

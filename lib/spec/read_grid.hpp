@@ -12,7 +12,7 @@ struct GridReading {
   GridSpec grid;
 };
 
-/// What there is at grid points. Cells of states that are not discrete are as wide as the step.
+/// The kind of a grid: single points, or cells around its points. Cells are as wide as the step.
 enum class GridOf : std::uint8_t { points, cells, periodic_cells };
 
 /// Reads lower, upper and step or count (contract, section 1, "Grid").

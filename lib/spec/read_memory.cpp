@@ -51,13 +51,13 @@ Program negated(const Program& condition) {
   return tape.extract(tape.apply(Operator::logical_not, tape.merge(condition)));
 }
 
-/// What is kept in `slot` is at least `value`.
+/// The condition that the value kept in `slot` is at least `value`.
 Index at_least(TapeBuilder& tape, std::uint32_t slot, std::int64_t value) {
   return tape.apply(Operator::greater_equal, tape.variable(slot),
                     tape.constant(Rational(static_cast<long>(value))));
 }
 
-/// What the past says by itself: true by what is kept first, else undecided by what is kept second.
+/// The truth that follows from the past alone: true or undecided by the values that are kept.
 Index remembered(TapeBuilder& tape, const PastOperator& past) {
   const std::int64_t full = past.kind == Kind::for_last ? past.samples - 1 : 1;
   if (!past.three_valued) return at_least(tape, past.slot, full);

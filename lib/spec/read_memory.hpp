@@ -28,13 +28,14 @@ class MemoryReader {
   /// The names that a formula mentions.
   [[nodiscard]] std::vector<std::string> mentioned(const std::string& name) const;
 
-  /// From now on provisional numbers.
+  /// From now on names stand for provisional numbers of variables.
   void look_at(const std::vector<StateSpec>& states, Membership asked);
-  /// From now on final ones. @pre all formulas have been linked since look_at()
+  /// From now on names stand for final numbers of variables. @pre all formulas have been linked since
+  /// look_at()
   void settle();
 
-  /// What the name of a memory stands for: a condition. Until look_at() it is any.
-  /// @param find what other names stand for; throws for those that are not for formulas
+  /// The condition that the name of a memory stands for; before look_at() a placeholder.
+  /// @param find finds the meaning of other names; throws for those that are not for formulas
   /// @pre unchecked: what the formula mentions has been linked before.
   [[nodiscard]] Program linked(const std::string& name, const Lookup& find);
 

@@ -45,7 +45,7 @@ PartitionSpec read_partition_name(const Node& node, const std::vector<AgentSpec>
   return as_listed(*std::move(partition), coordination);
 }
 
-/// Of all transitions or of none.
+/// Reads the probabilities of all transitions; there may be none.
 void read_probabilities(const Scope& scope, const Node& object, NetworkSpec& network) {
   for (const Node& transition : object.elements("transitions")) {
     if (transition.size() == 3) network.probabilities.push_back(read_probability(scope, transition[2]));
@@ -136,7 +136,7 @@ std::optional<LossAutomaton> read_losses(const Node& object, NetworkSpec& networ
   return weakly_hard_automaton(network.misses, network.window, kMostModes);
 }
 
-/// Of networks that know no more than the present step a word.
+/// The name of a mode; a word for networks that know no more than the present step.
 std::string mode_name(const LossAutomaton& losses, std::size_t mode, NetworkKind kind) {
   if (kind != NetworkKind::loss) return losses.names[mode];
   return losses.is_up(mode) ? "up" : "down";

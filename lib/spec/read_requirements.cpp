@@ -53,7 +53,7 @@ std::optional<Rational> seconds_of(const std::string& unit) {
   return found == kUnits.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// How many periods a unit of time has, rounded up.
+/// Number of periods in a unit of time, rounded up.
 std::int64_t periods_per(const Node& per, const std::string& unit, const Rational& period) {
   const std::optional<Rational> seconds = seconds_of(udunits_spelling(unit));
   if (!seconds) {

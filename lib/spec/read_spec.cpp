@@ -101,7 +101,8 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   errors.raise();
 }
 
-/// What memories rest on: the states, and whether conditions are asked of centres.
+/// Gives memories their numbers among the variables. They need the states, and whether conditions are asked
+/// of centres.
 void number_memories(const Node& root, MemoryReader& memory) {
   if (memory.names().empty()) return;
   const AbstractionSpec abstraction = read_abstraction(root);

@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// What is true of all requirements of a kind.
+/// Properties of all requirements of a kind.
 struct RequirementTraits {
   RequirementKind kind;
   std::string key;  ///< of the spec that stands for it

@@ -105,7 +105,7 @@ std::vector<std::string> texts(const Json& list) {
   return result;
 }
 
-/// What a schema asks for, for "expected ...".
+/// The kind of value that a schema allows, for "expected ...".
 std::string wanted(const Json& schema) {
   if (schema.contains("title")) return schema["title"].get<std::string>();
   if (schema.contains("enum")) return quote_list(texts(schema["enum"]), "or");
@@ -200,7 +200,7 @@ class Walk {
     }
   }
 
-  /// What a key can be, if that is one of a few words.
+  /// The values of a key, if they are a few words.
   [[nodiscard]] std::string choices(const Json& schema, const std::string& key) const {
     if (!schema.contains("properties") || !schema["properties"].contains(key)) return "";
     const Json& own = resolve(schema["properties"][key]);

@@ -21,7 +21,7 @@ struct SchemaViolation {
 /// this names the one thing to mend. That both agree on what is valid is tested.
 [[nodiscard]] std::vector<SchemaViolation> find_violations(const nlohmann::json& schema,
                                                            const nlohmann::json& document, std::size_t most);
-/// The same with the schema of specs, spec_schema().
+/// find_violations() of the schema of specs, spec_schema().
 [[nodiscard]] std::vector<SchemaViolation> find_spec_violations(const nlohmann::json& document,
                                                                 std::size_t most);
 

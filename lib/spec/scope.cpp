@@ -255,7 +255,8 @@ Program Scope::expression(const Node& node, ExpectedType expected, Over over) co
   return seen_as(program, over == Over::states_and_inputs && !centres_ ? inputs_end_ : 0);
 }
 
-/// What is no condition says how things move, or what agents prefer; what they remember follows from that.
+/// Only conditions may mention memories: other expressions say how states move or what agents prefer, and
+/// memories follow from these.
 void Scope::refuse_memories(const Node& node) const {
   if (memories_in_.empty()) return;
   for (const std::string& name : mentioned_names(node.text(), node.pointer())) {

@@ -17,7 +17,7 @@
 
 namespace coordreq {
 
-/// What an expression of the spec may depend on.
+/// The variables that an expression of the spec may depend on.
 enum class Over : std::uint8_t { states, states_and_inputs, everything };
 
 /// Everything that expressions of one spec can name, and the way to read numbers and expressions with it.

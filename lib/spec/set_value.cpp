@@ -81,7 +81,7 @@ class PlaceFinder {
  public:
   PlaceFinder(const OrderedJson& spec, const std::string& path) : path_(path), at_(&spec) {}
 
-  /// What is not there yet is added, as far as it may be.
+  /// Goes down the steps; members that are missing are added where the schema allows them.
   /// @returns keys, and indices of elements that are there
   [[nodiscard]] std::vector<std::string> to(const std::vector<std::string>& steps) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -108,7 +108,7 @@ class PlaceFinder {
     place_.push_back(steps[i]);
   }
 
-  /// Nothing would refer to a constant or a definition that is added.
+  /// Refuses to add a constant or a definition, since nothing would refer to it.
   void check_may_add(const std::vector<std::string>& steps, std::size_t missing) const {
     if (missing > 1 || steps.size() < 2 || (steps[0] != "constants" && steps[0] != "definitions")) return;
     std::vector<std::string> known;
@@ -172,7 +172,7 @@ bool is_ring(const OrderedJson& state) {
          (outside->is_object() && outside->contains("below") && (*outside)["below"] == "periodic");
 }
 
-/// What is not as the schema has it stays, for read_spec() to name.
+/// Divides the step of a state. Values that break the schema stay as they are, for read_spec() to name.
 void refine(OrderedJson& state, std::int64_t factor) {
   if (!state.is_object() || state.value("discrete", OrderedJson()) == true) return;
   const auto step = state.find("step");

@@ -63,7 +63,7 @@ void check_rule(const ProblemSpec& spec, const Rule& rule) {
   }
 }
 
-/// What is measured with an error, and by whom.
+/// Refuses rules of two agents that read the same state if it is measured with an error.
 void check_measured(const ProblemSpec& spec) {
   std::vector<std::int32_t> reader(spec.states.size(), -1);
   for_each_rule(spec, [&](const Rule& rule) {

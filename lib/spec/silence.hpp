@@ -2,7 +2,7 @@
 
 #include "spec/spec_types.hpp"
 
-// What silent agents do by themselves (contract, section 9).
+// The rules of silent agents (contract, section 9).
 namespace coordreq {
 
 /// A rule of an agent reads its own inputs and states that it sees; a memory counts as the states that its

@@ -15,7 +15,7 @@ class SpecErrors : public SpecError {
   /// @pre there are at least two
   explicit SpecErrors(std::vector<std::string> lines);
 
-  /// What an error of its own would say, for each.
+  /// [error] the text that it would have alone.
   [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
 
  private:

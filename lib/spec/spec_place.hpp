@@ -20,7 +20,7 @@ struct WrittenSpec {
   std::vector<SpecSetting> settings;  ///< carried out one after the other
 };
 
-/// That of a spec.
+/// The text and the settings that `spec` was read from.
 [[nodiscard]] WrittenSpec written_spec(const ProblemSpec& spec);
 
 /// Where in a text the value at a JSON pointer starts; nothing if there is no such value.
@@ -32,7 +32,7 @@ struct WrittenSpec {
 /// JSON pointer, or that of no value in the text.
 [[nodiscard]] std::string with_place(const std::string& error, const WrittenSpec& written);
 
-/// What `work` returns. @throws SpecError, SpecErrors with places instead of those without
+/// Runs `work` and returns its result. @throws SpecError, SpecErrors with places instead of those without
 template <class Work>
 auto with_places(const WrittenSpec& written, const Work& work) {
   try {

@@ -11,7 +11,7 @@
 #include "spec/past_operator.hpp"
 #include "spec/spec_types.hpp"
 
-// What moves: the variables, who chooses the inputs, the dynamics, and how they are enclosed. All expressions
+// The system: its variables, the agents, the dynamics, and how posts are enclosed. All expressions
 // of a spec share one numbering of variables ("slots"): states first, then inputs, then disturbances, each in
 // the order of the spec.
 namespace coordreq {
@@ -56,7 +56,8 @@ struct UpdateSpec {
   /// The next value as a function of the present sample. Outside of the conditions of `if` it mentions
   /// discrete states and inputs only, and nowhere disturbances.
   Program value;
-  /// But the next value of a state that a memory keeps is a function of the cell seen.
+  /// Set for a state that a memory keeps, whose next value is a function of the cell seen; then `value` is
+  /// not used.
   std::optional<PastOperator> past;
   [[nodiscard]] std::vector<std::uint32_t> variables() const {
     return past ? past->variables() : value.variables();

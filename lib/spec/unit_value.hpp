@@ -6,7 +6,7 @@
 
 namespace coordreq {
 
-/// What a unit is worth: scale * m^a * s^b * kg^c. Angles have no dimension: rad is 1, deg is pi / 180.
+/// The value of a unit: scale * m^a * s^b * kg^c. Angles have no dimension: rad is 1, deg is pi / 180.
 struct UnitValue {
   double scale = 1;
   std::array<int, 3> powers{};  ///< of m, s and kg

@@ -157,7 +157,7 @@ class Multiplier {
     }
   }
 
-  /// But for the constant.
+  /// Number of terms without the constant.
   [[nodiscard]] std::size_t terms_of(const Form& a) const {
     const std::vector<ulong> none(variables_.size() + 1, 0);
     FlintRational constant;

@@ -28,7 +28,7 @@ class AnalysisTables {
   [[nodiscard]] PostTable tubes(std::size_t state);
   [[nodiscard]] PostTable whole_tubes(std::size_t state);
   [[nodiscard]] const Abstraction& whole() { return source_.whole(); }
-  /// How many entries of tables have been worked out.
+  /// Number of entries of tables that have been computed.
   [[nodiscard]] std::int64_t entries_built() const { return source_.entries_built(); }
 
  private:

@@ -26,12 +26,12 @@ class Budget {
 
   [[nodiscard]] bool is_over() const { return left_ <= 0; }
   [[nodiscard]] Work left() const { return std::max<Work>(left_, 0); }
-  /// What one of so many questions may take; 0 once the budget is over.
+  /// Work that one of `questions` questions may take; 0 once the budget is over.
   [[nodiscard]] Work share(std::int64_t questions) const {
     return is_over() ? 0 : std::clamp<Work>(left_ / std::max<std::int64_t>(questions, 1), 1, most_of_one());
   }
   void spend(Work used) { left_ -= used; }
-  /// What some of several questions of different size may take together.
+  /// The part of this budget for `some` of `all` units of work.
   [[nodiscard]] Budget part(std::int64_t some, std::int64_t all) const {
     const double share = static_cast<double>(some) / static_cast<double>(std::max<std::int64_t>(all, 1));
     return Budget(static_cast<Work>(static_cast<double>(left()) * std::min(share, 1.0)));

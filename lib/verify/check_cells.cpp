@@ -32,7 +32,8 @@ class CellVisitor {
   std::vector<std::unique_ptr<CellChecker>> checkers_;
 };
 
-/// What goes over the joint inputs of a cell: once for each class of each partition, and twice for K.
+/// The steps that checking a cell takes: all joint inputs, once for each class of each partition, and twice
+/// for K.
 std::int64_t steps_of_cell(const CheckContext& context) {
   std::int64_t times = 2;
   for (const PartitionSpec& partition : context.spec->coordination.partitions)
@@ -92,8 +93,8 @@ class AllCells {
     });
   }
 
-  /// Of blocks that are visited one after the other, so that they lie all over the grid: near the golden
-  /// section, and with no divisor in common, so that all are visited.
+  /// The distance of blocks that are visited one after the other, so that they lie all over the grid: near
+  /// the golden section, and with no divisor in common, so that all are visited.
   static std::int64_t stride_of(std::int64_t blocks) {
     auto stride = static_cast<std::int64_t>(0.618 * static_cast<double>(blocks)) + 1;
     while (std::gcd(stride, blocks) != 1) ++stride;

@@ -18,13 +18,13 @@ namespace coordreq {
 [[nodiscard]] IndexRange cells_covered(const GridDimension& dimension, const Rational& lower,
                                        const Rational& upper);
 
-/// What the verifier knows of the cells that cover all states between the samples, from one piece of a cell.
+/// The verifier's bounds of the cells that cover all states between the samples, from one piece of a cell.
 struct OwnTube {
   IndexRange outer;  ///< these are enough
   IndexRange inner;  ///< these are needed
 };
 
-/// What became of the tubes of one state.
+/// The finding about the tubes of one state.
 struct TubeFinding {
   Finding finding;
   bool exact = false;  ///< no tube could be smaller

@@ -13,7 +13,8 @@
 namespace coordreq {
 namespace {
 
-/// What one moving state adds to the value of the map: at the two ends of each piece of each of its cells.
+/// The amounts that one moving state adds to the value of the map: at the two ends of each piece of each of
+/// its cells.
 struct Contribution {
   struct Ends {
     Rational one;

@@ -12,7 +12,8 @@
 namespace coordreq {
 namespace {
 
-/// What one moving state adds, from both ends of each piece of its cells: in units of the target's step.
+/// The amounts that one moving state adds, from both ends of each piece of its cells, in units of the
+/// target's step.
 struct TimedPart {
   struct Ends {
     TimePolynomial lower;

@@ -137,7 +137,7 @@ constexpr bool is_in_order(std::span<const SmoothFunction> rows) {
   }
   return true;
 }
-// Whoever adds a function adds a row, or a kink to run_unary().
+// A new function needs a row, or a kink in run_unary().
 static_assert(is_in_order(kSmooth) &&
               number_of(Operator::absolute) == number_of(Operator::negate) + std::size(kSmooth));
 static_assert(number_of(Operator::modulo) == number_of(Operator::absolute) + 3,

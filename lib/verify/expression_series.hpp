@@ -27,7 +27,7 @@ class ExpressionSeries {
 
   /// @param slots series of all variables; @param length of the series, at least 1
   const ArbSeries& operator()(std::span<const ArbSeries> slots, slong length);
-  /// Of the last result. Where it is not analytic, coefficients from 2 on mean nothing.
+  /// Smoothness of the last result. Where it is not analytic, coefficients from 2 on mean nothing.
   [[nodiscard]] Smoothness smoothness() const { return smoothness_; }
   [[nodiscard]] std::size_t operations() const { return values_.size(); }
 

@@ -28,9 +28,9 @@ bool same(const std::vector<Arb>& a, const std::vector<Arb>& b) {
                     [](const Arb& x, const Arb& y) { return arb_equal(x.get(), y.get()) != 0; });
 }
 
-/// Of what the transition matrix of a step takes, and with it what disturbances do in the step.
+/// Work of the transition matrix of a step, and of the effect of disturbances in the step.
 Work work_of_transition(std::size_t states, std::size_t disturbances) {
-  constexpr std::size_t kProducts = 20;  // that the exponential of a matrix takes, about
+  constexpr std::size_t kProducts = 20;  // of matrices, for an exponential, about
   return static_cast<Work>(kProducts * states * states * (states + disturbances));
 }
 
@@ -97,7 +97,7 @@ class MiddleSolution {
   }
 
  private:
-  /// What disturbances do in a step.
+  /// The effect of disturbances in a step.
   struct Push {
     ArbMatrix since;  ///< transition matrix of the steps behind it
     ArbMatrix moved;  ///< by how much, at its end

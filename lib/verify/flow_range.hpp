@@ -4,7 +4,7 @@
 
 namespace coordreq {
 
-/// What is known of one state at all times of the period.
+/// The range of one state at all times of the period.
 struct FlowRange {
   Arb lower;  ///< points; no value is beyond them
   Arb upper;

@@ -100,7 +100,7 @@ class StepMaker {
     return face[slot].lower + duration_ * change + duration_ * duration_ * Arb(0.5) * bend;
   }
 
-  /// The same without slopes: a state that is beyond the moving end has to have got there with a derivative
+  /// A bound without slopes: a state that is beyond the moving end has to have got there with a derivative
   /// that is taken there.
   [[nodiscard]] Arb beyond_face(const SpanBox& start, std::size_t i, bool greatest) {
     const std::uint32_t slot = field_.variables()[i];

@@ -13,7 +13,7 @@ namespace coordreq {
 struct TubeStep {
   ArbBox tube;              ///< holds all solutions during the step
   std::vector<Arb> change;  ///< and this their derivatives
-  /// Of f by x and w, all over the tube; none where f jumps, or a state may be held.
+  /// Derivatives of f by x and w, all over the tube; none where f jumps, or a state may be held.
   std::optional<ArbMatrix> slopes;
   SpanBox end;  ///< holds all solutions at its end
   /// Transition matrix of the states over the step, once it has been asked for.

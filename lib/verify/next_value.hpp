@@ -26,7 +26,7 @@ struct Effort {
   double tolerance = 1e-3;  ///< of a solution, in cells
 };
 
-/// What is known about the least or the greatest value that a state can have next.
+/// Bounds of the least or the greatest value that a state can have next.
 struct Extreme {
   Arb bound;                    ///< a point: no value is beyond it
   std::optional<Arb> attained;  ///< a value that is taken, by `start`
@@ -49,7 +49,7 @@ class NextValue {
   /// @param box constant but for states and disturbances
   /// @returns false where no bound is found
   [[nodiscard]] virtual bool enclose(const SpanBox& box, const Effort& effort) = 0;
-  /// Of the box enclosed last.
+  /// The extremes of the value over the box enclosed last.
   /// @param value which of several
   /// @param enough tells whether a range that is found first, with less effort, will do
   using Enough = std::function<bool(const Arb& lower, const Arb& upper)>;
@@ -62,7 +62,7 @@ class NextValue {
   [[nodiscard]] virtual Work work() const = 0;
 };
 
-/// What a variable that moves a value with a slope adds beyond the place that is taken for the extreme.
+/// The place that is taken for the extreme along a variable, and the excess of other places.
 struct EndChoice {
   Arb place;   ///< a point of the span
   Arb excess;  ///< not negative: how far values for other places are beyond

@@ -24,7 +24,7 @@ struct PostQuestion {
   std::string check;                                 ///< name of the finding
 };
 
-/// How many posts are settled, of how many; called by the caller's thread. May be empty.
+/// Is told how many posts of all are settled, on the thread of the caller. May be empty.
 using PostProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Proves the entries of states' tables by enclosures in ball arithmetic: a little work for all, then more

@@ -57,7 +57,7 @@ std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<P
   for (int boxes = 1; !pending.empty(); ++boxes) {
     Piece piece = std::move(pending.back());
     pending.pop_back();
-    // Of what is lost already no more need be known.
+    // Claims that are lost already need no more work.
     std::erase_if(piece.claims, [&](std::size_t c) { return proofs[c].verdict != PostVerdict::holds; });
     if (piece.claims.empty()) continue;
     const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && work() < end;
@@ -184,7 +184,7 @@ std::optional<std::string> PostProver::witness(const PostClaim& claim, const Ext
                      group_.shifts ? "changes by" : "gets to", number_text(*extreme.attained));
 }
 
-/// What adds most to the bounds; of equals the widest.
+/// The variable that adds most to the bounds; among equals the widest.
 std::optional<std::uint32_t> PostProver::widest(const SpanBox& box, std::vector<double> excess) const {
   std::optional<std::uint32_t> result;
   double most = 0.0;

@@ -19,7 +19,7 @@ struct PostClaim {
   IndexRange range;
 };
 
-/// What could be proven about a claim.
+/// The result of proving a claim.
 enum class PostVerdict : std::uint8_t {
   holds,  ///< it has every value that can come next
   wrong,  ///< some value that does come next is not in it

@@ -148,7 +148,7 @@ std::optional<LinearFlow> solved(const std::vector<ExactForm>& equations, std::s
   return flow;
 }
 
-/// Those of the moving states, if all are affine.
+/// The equations of the moving states, if all are affine.
 std::optional<std::vector<ExactForm>> equations_of(const SystemSpec& spec, const Influences& influences,
                                                    const std::vector<Rational>& slots) {
   std::vector<ExactForm> equations;

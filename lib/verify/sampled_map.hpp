@@ -10,7 +10,7 @@
 
 namespace coordreq {
 
-/// What the next value of a state depends on: the variables of its equation in discrete time, or of its
+/// The influences on the next value of a state: the variables of its equation in discrete time, or of its
 /// update; in continuous time also those of the equations of all states it depends on. Indices into the
 /// spec's lists, ascending.
 struct Influences {
@@ -53,7 +53,7 @@ struct SampledMap {
 [[nodiscard]] std::optional<SampledMap> sampled_map(const SystemSpec& spec, const Influences& influences,
                                                     std::size_t state, const std::vector<Rational>& slots);
 
-/// The same state during the period, as a function of the moving states x at its beginning: at time t in
+/// A state during the period, as a function of the moving states x at its beginning: at time t in
 /// [0, tau] within { sum_j coefficient[j](t) x_j + r : lower(t) <= r <= upper(t) }.
 struct TimedMap {
   std::vector<TimePolynomial> coefficient;  ///< one for each of Influences::moving

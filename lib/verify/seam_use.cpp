@@ -9,7 +9,7 @@
 namespace coordreq {
 namespace {
 
-/// What is known of a node as a function of x.
+/// A node as a function of x, as far as known.
 struct Node {
   std::optional<Rational> slope;  ///< it is slope * x + (what does not depend on x)
   std::optional<Rational> value;  ///< it is a constant

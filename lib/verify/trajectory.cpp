@@ -63,7 +63,7 @@ std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const A
       inside = inside && tube.box[slot].holds(next[slot]);
     }
     if (inside) {
-      // What it moves on to is a tube as well, and a narrower one.
+      // The box that the solutions move on to is a tube as well, and a narrower one.
       tube.box = std::move(next);
       return tube;
     }

@@ -20,14 +20,14 @@ class Trajectory {
   /// a step is taken all the same
   /// @returns false if the solution may not last so long; then the box is not changed
   [[nodiscard]] bool advance(ArbBox& box, const Arb& duration, double tolerance);
-  /// The same, not remembered: for what is asked once.
+  /// advance() without remembering the result, for durations that are asked about once.
   [[nodiscard]] bool integrate(ArbBox& box, const Arb& duration, double tolerance);
   /// One step by a Taylor polynomial with so many terms.
   /// @param tube holds the solution during the step
   /// @returns nothing where the remainder is larger than the tolerance
   [[nodiscard]] std::optional<ArbBox> analytic_step(const ArbBox& box, const ArbBox& tube,
                                                     const Arb& duration, double tolerance, slong terms);
-  /// What was asked again would have been so much work for the field.
+  /// Work of the field that remembered results have saved.
   [[nodiscard]] Work repeated_work() const { return repeated_work_; }
 
  private:
@@ -53,7 +53,7 @@ class Trajectory {
   Work repeated_work_ = 0;
 };
 
-/// What a state cannot pass: points, where it is held while its derivative points out.
+/// The limits of a state under `stop`: points at which it is held while its derivative points out.
 struct StopLimits {
   std::optional<Arb> below;
   std::optional<Arb> above;

@@ -140,7 +140,7 @@ class UpdateJudge {
   std::vector<std::unique_ptr<CheckedComparison>> comparisons_;
 };
 
-/// What a memory keeps next, from the meaning of its operator (contract, section 6).
+/// The next value of a memory, from the meaning of its operator (contract, section 6).
 Rational kept_value(const PastOperator& past, Truth one, Truth other, const std::vector<SlotBox>& pieces) {
   using Kind = PastOperator::Kind;
   const auto rank = [&](Truth truth) {

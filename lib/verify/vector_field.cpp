@@ -7,7 +7,7 @@
 namespace coordreq {
 namespace {
 
-/// What is longer is anywhere.
+/// States that turn more often count as anywhere.
 constexpr long kMostTurnsSeen = 4;
 
 /// Where a state is that goes round, in parts: a point on its upper end is at the lower one.

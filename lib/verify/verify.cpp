@@ -164,7 +164,7 @@ class Verifier {
     }
   }
 
-  /// What nothing of the verifier's own confirms.
+  /// The finding about posts that the verifier cannot confirm by means of its own.
   [[nodiscard]] static Finding not_independent(std::string check, const PostTable& table) {
     const auto entries = static_cast<std::int64_t>(table.entries.size());
     return {.check = std::move(check),

@@ -13,7 +13,7 @@
 
 namespace coordreq {
 
-/// What is under way; called from the calling thread only.
+/// The work under way; reported on the calling thread only.
 struct VerifyProgress {
   std::string stage;      ///< "reading", "posts", "tubes", "cells"
   std::int64_t done = 0;  ///< of `all`; both 0 where that is not known
@@ -33,7 +33,7 @@ struct VerifyOptions {
   std::function<void(const VerifyProgress&)> progress;  ///< may be empty
 };
 
-/// What the checks of cells rest on.
+/// The posts that the checks of cells rest on.
 enum class PostBasis : std::uint8_t {
   exact,     ///< the verifier's own posts, which are those of the contract: a complete certificate
   stored,    ///< the abstraction in the file, which holds the verifier's own enclosures
@@ -52,7 +52,7 @@ struct Verification {
   std::int64_t cells = 0;  ///< of the grid
   std::int64_t cells_checked = 0;
   PostBasis basis = PostBasis::exact;
-  /// The same of the ways between the samples, if they have to be safe: `exact` where the cells that cover
+  /// The basis for the ways between the samples, if they have to be safe: `exact` where the cells that cover
   /// them could not be fewer, else `computed`.
   std::optional<PostBasis> tubes;
   /// States whose reachable sets, or ways between the samples, are only those of the analysis, computed anew:
@@ -65,7 +65,7 @@ struct Verification {
   std::vector<Finding> findings;
 
   [[nodiscard]] Verdict verdict() const;
-  /// Nothing is wrong.
+  /// Whether nothing is wrong.
   [[nodiscard]] bool holds() const { return verdict() != Verdict::wrong; }
 };
 

@@ -15,7 +15,7 @@
 namespace coordreq {
 namespace {
 
-/// Of one element in memory: numbers of steps are widened.
+/// Bytes of an element in memory: numbers of steps are widened.
 double bytes_in_claims(const Field& field) {
   const bool is_widened = std::ranges::find(field.types, ElementType::int16) != field.types.end();
   return is_widened ? sizeof(std::int32_t) : static_cast<double>(element_size(field.types.front()));
@@ -73,7 +73,7 @@ double bytes_of_posts(const ResultsReader& results) {
   return bytes + 2 * inputs * sizeof(std::int32_t) * static_cast<double>(shapes.size());
 }
 
-/// Of the classes of all partitions the action in each joint input.
+/// Memory of the actions of all classes of all partitions in each joint input.
 double bytes_of_classes(const ResultsReader& results) {
   constexpr double kBytesOfClass = 400;
   double classes = 0;
@@ -96,12 +96,12 @@ double kept_of_cell(const ResultsReader& results) {
 double bytes_of_thread(const ResultsReader& results) {
   const ProblemSpec& spec = results.spec();
   const auto inputs = static_cast<double>(results.inputs().count());
-  // Of boxes, and of parts of them; and of two sets for tubes.
+  // Minima over boxes and over parts of them; and two sets for tubes.
   const double remembered = 2 * std::min(static_cast<double>(PostMinima::kMostMinima), 4 * inputs);
   double bytes = remembered * sizeof(std::int32_t) * (spec.abstraction.between_samples ? 3 : 1);
   constexpr double kBytesOfPartition = 100;
   double points = 0;
-  // What an answer knows of a class of one partition.
+  // The data of an answer about a class of one partition.
   for (const PartitionSpec& partition : spec.coordination.partitions)
     bytes += kBytesOfPartition * static_cast<double>(partition.classes.size());
   constexpr double kBytesOfInput = 32, kBytesOfPoint = 250;  // flags and places; ends of cells as rationals

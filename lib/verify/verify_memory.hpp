@@ -5,7 +5,7 @@
 
 namespace coordreq {
 
-/// What verifying a results file takes, in bytes.
+/// Memory of verifying a results file, in bytes.
 struct VerifyMemory {
   double claims = 0;  ///< what the file says of all cells, with a copy of an array while it is read
   MemoryDemand work;  ///< posts of all cells, what is kept of each, and of a thread what it knows of one cell

@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-/// Of a flow that the analysis has to enclose; stiff ones take more.
+/// Work of a flow that the analysis has to enclose; stiff ones take more.
 constexpr double kOfEnclosure = 3000;
 
 double of_corners(std::size_t moving) {

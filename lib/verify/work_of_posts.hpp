@@ -10,7 +10,7 @@
 
 namespace coordreq {
 
-/// What it takes to find the posts that checks rest on, roughly.
+/// The work of finding the posts that checks rest on, roughly.
 struct WorkOfPosts {
   Work of_all = 0;
   Work of_cell = 0;  ///< those of one cell, with all inputs

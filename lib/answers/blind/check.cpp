@@ -235,8 +235,8 @@ class BlindCheck : public AnswerCheck {
     tally.add_wrong(number, [&] { return text; });
   }
 
-  /// As claimed: the cell is in a goal that ends the task. It is in every B_k, and removes no action from its
-  /// fibres.
+  /// Whether the file claims that the cell is in a goal that ends the task. It is in every B_k, and removes
+  /// no action from its fibres.
   [[nodiscard]] bool is_over(std::int64_t cell) const {
     return context_.spec->ends_at_goal && context_.claims->values("/arrival")[at(cell)] == 0;
   }

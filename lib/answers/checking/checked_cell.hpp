@@ -25,13 +25,13 @@ class CheckedCell {
   [[nodiscard]] std::size_t at() const { return static_cast<std::size_t>(cell_); }
   /// "x1 = 0.1, x2 = 0".
   [[nodiscard]] std::string place() const;
-  /// As claimed.
+  /// Whether the file claims that the cell is in S.
   [[nodiscard]] bool is_safe() const { return safe_[at()] != 0; }
-  /// As claimed; a cell that is not safe is not invariant.
+  /// Whether the file claims that the cell is in K; a cell outside S is not.
   [[nodiscard]] bool is_invariant() const { return is_safe() && invariant_[at()] != 0; }
 
-  /// As claimed: the cell is in a goal that ends the task. It counts as T, and nothing is asked of the cells
-  /// that follow.
+  /// Whether the file claims that the cell is in a goal that ends the task. It counts as T, and nothing is
+  /// asked of the cells that follow.
   [[nodiscard]] bool is_over() const { return arrival_ != nullptr && (*arrival_)[at()] == 0; }
 
   /// C(x): [joint input] 1 or 0; all 0 outside K.

@@ -23,7 +23,7 @@ inline constexpr std::int32_t kNoWayToGoal = -4;
 /// The values of one field of a results file; only the members of its kind are filled. Values over cells are
 /// [entry of the leading axis][cell, row-major], with one entry if there is no leading axis.
 struct FieldClaims {
-  /// Of steps and choices. kForever: the largest number of the type, where it means unbounded.
+  /// Steps and choices. kForever: the largest number of the type, where it means unbounded.
   std::vector<std::vector<std::int32_t>> values;
   std::vector<std::vector<std::uint8_t>> members;  ///< of sets: 0 or 1
   std::vector<std::vector<float>> reals;           ///< of shares and probabilities

@@ -28,7 +28,7 @@ struct ApproachTallies {
   Tally delay, trigger, actions;
 };
 
-/// What all threads share.
+/// The tallies that all threads share.
 struct GoalTallies {
   Tally goal{"goal"};
   Tally arrival{"arrival"};
@@ -242,7 +242,7 @@ class GoalChecker : public CellChecker {
   const std::vector<std::uint8_t>* controller_;  ///< null: not stored
   SafeJudge judge_;
   std::vector<std::vector<GoalClass>> classes_;  ///< [partition]
-  // Of the cell being checked:
+  // The cell being checked:
   std::vector<std::uint8_t> progress_;                  ///< P(x), in the goal C(x)
   std::vector<std::vector<std::uint8_t>> projections_;  ///< [class of the partition being checked][action]
 };

@@ -12,7 +12,7 @@ namespace {
 
 using Limits = std::numeric_limits<std::int32_t>;
 
-/// How many cells the tubes of a state go beyond the domain where it saturates.
+/// Number of cells by which the tubes of a state go beyond the domain where it saturates.
 struct Excess {
   std::int64_t below = 0;
   std::int64_t above = 0;

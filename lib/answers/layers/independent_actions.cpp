@@ -244,7 +244,7 @@ void IndependentActions<Level>::find_worst(std::int64_t row, const RowGroups& gr
       if (!needed) break;
       const ConstRow other = projections_.mask(row, groups, c, h);
       if (!is_subset(projection, other)) continue;
-      // Of two that cover each other the lower one stays.
+      // The lower one of two groups that cover each other stays.
       needed = own.is_within(h, g) && g < h && is_subset(other, projection);
     }
     if (needed) result.push_back(g);

@@ -17,7 +17,7 @@ void IndependentPosts::find_worst(const RowBoxes& boxes, const ActionGroups& own
       if (boxes.kind(c, h) != RowBoxes::Kind::box) continue;
       const ConstRow other = mask_of(masks, h);
       if (!is_subset(mask, other)) continue;
-      // Of two that cover each other the lower one stays.
+      // The lower one of two groups that cover each other stays.
       needed = own.is_within(h, g) && g < h && is_subset(other, mask);
     }
     if (needed) worst_.push_back(g);

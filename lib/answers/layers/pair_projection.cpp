@@ -231,7 +231,7 @@ void PairProjection::take(const Plane& plane, const std::vector<Place>& list, Wo
   }
 }
 
-/// The same for the rows of K in the box of leader and follower.
+/// take() from the rows of K in the box of leader and follower.
 void PairProjection::take(const Candidate& leader, const Candidate& follower, Word* rows) {
   boxes_.put(leader_, boxes_.ranges(leader_, leader.group), box_);
   boxes_.put(follower_, boxes_.ranges(follower_, follower.group), box_);

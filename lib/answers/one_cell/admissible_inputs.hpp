@@ -57,7 +57,7 @@ class AdmissibleInputs {
     std::vector<std::size_t> states;
     std::vector<std::size_t> inputs;
     bool has_allow = false;  ///< `allow` depends on inputs, which are all in this component
-    /// Of the last cell: the moves, with the contributions to the number of a joint input that lead to each.
+    /// The moves from the last cell, with the contributions to the number of a joint input that lead to each.
     std::vector<std::pair<Move, std::vector<std::int64_t>>> groups;
   };
 

@@ -66,12 +66,12 @@ class CellPosts {
   void move_to(std::int64_t cell);
   /// The cells where state `i` can be next under joint input `u`. @pre unchecked: move_to() was called
   [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t u) const;
-  /// The same range before the rules for leaving the domain.
+  /// The range of state `i` before the rules for leaving the domain.
   [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t u) const;
   /// The cells of the tube of state `i` under `u`, see Abstraction. @pre has_tubes()
   [[nodiscard]] ResolvedRange resolved_tube(std::size_t i, std::int64_t u) const;
   [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t u) const;
-  /// How many entries of tables have been computed so far.
+  /// Number of entries of tables that have been computed so far.
   [[nodiscard]] std::int64_t entries_built() const;
   /// f(x, u) of all states. @param tubes the sets in which tubes must stay
   [[nodiscard]] CellPost post(std::int64_t u, const TubeSets& tubes) const;

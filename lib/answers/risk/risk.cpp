@@ -87,7 +87,7 @@ class Iteration {
     double greatest = 0;
     for (const auto& worker : workers) greatest = std::max(greatest, worker.rate);
     if (engine_.share() == nullptr) return greatest;
-    // Of numbers that are not negative the bits have the same order.
+    // The bits of numbers that are not negative have the same order as the numbers.
     return std::bit_cast<double>(engine_.share()->ranks().greatest(std::bit_cast<std::int64_t>(greatest)));
   }
 

@@ -179,7 +179,7 @@ class SilenceCheck : public AnswerCheck {
     }
   }
 
-  /// Of some cells those from which `then` may lead out of a set.
+  /// The cells of `cells` from which `then` may lead out of a set.
   [[nodiscard]] std::vector<std::int64_t> leaving(const std::vector<std::int64_t>& cells,
                                                   const std::vector<std::uint8_t>& set,
                                                   ThreadTeam& team) const {
