@@ -27,11 +27,20 @@ class ExpressionSeries {
 
   /// @param slots series of all variables; @param length of the series, at least 1
   const ArbSeries& operator()(std::span<const ArbSeries> slots, slong length);
+  /// The series with one term more than in the last result: nodes made by + - * / and squares have only this
+  /// term computed.
+  /// @pre length >= 2
+  /// @pre unchecked: the last result is for slots whose series agree in all other terms
+  const ArbSeries& extend(std::span<const ArbSeries> slots, slong length);
   /// Smoothness of the last result. Where it is not analytic, coefficients from 2 on mean nothing.
   [[nodiscard]] Smoothness smoothness() const { return smoothness_; }
+  /// Number of operations, and of those that extend() carries out anew.
   [[nodiscard]] std::size_t operations() const { return values_.size(); }
+  [[nodiscard]] std::size_t repeated_operations() const { return repeated_; }
 
  private:
+  [[nodiscard]] bool is_extended(std::size_t n) const;
+  void extend_number(std::size_t n, std::span<const ArbSeries> slots, slong k);
   void run_number(std::size_t n, std::span<const ArbSeries> slots, slong length);
   void keep_side(std::size_t n);
   void run_binary(std::size_t n, slong length);
@@ -49,6 +58,7 @@ class ExpressionSeries {
   const Program* program_;
   std::vector<ArbSeries> values_;
   std::vector<Truth> truths_;
+  std::size_t repeated_ = 0;
   Smoothness smoothness_ = Smoothness::analytic;
 };
 

@@ -182,10 +182,10 @@ bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
 
 /// Where the slopes would turn things round within a step, more steps are taken.
 bool FlowExtremes::find_steps() {
-  std::optional<std::vector<TubeStep>> steps = enclosed(effort_.steps);
-  const std::optional<ArbMatrix> slopes = steps ? steps->front().slopes : field_.jacobian(all_of(box_));
-  const int finer = slopes ? steps_for(*slopes, effort_) : effort_.steps;
-  if (finer > effort_.steps) steps = enclosed(finer);
+  const Arb first_duration = period_ / Arb(static_cast<double>(effort_.steps));
+  const auto first = enclose_flow(field_, limits_, box_, first_duration, 1, 1);
+  const std::optional<ArbMatrix> slopes = first ? first->front().slopes : field_.jacobian(all_of(box_));
+  std::optional<std::vector<TubeStep>> steps = enclosed(slopes ? steps_for(*slopes, effort_) : effort_.steps);
   if (steps) steps_ = std::move(*steps);
   return steps.has_value();
 }

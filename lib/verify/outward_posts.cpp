@@ -19,6 +19,8 @@
 namespace coordreq {
 namespace {
 
+constexpr std::size_t kBytesOfAllocations = 32;
+
 /// One round after the other, of more work for what is still open. Once more the same serves those that got
 /// a smaller share the first time.
 const PostEffort kRounds[] = {{1, {2, 1e-3}},    {2, {8, 1e-4}},     {16, {8, 1e-5}},   {64, {16, 1e-6}},
@@ -89,10 +91,16 @@ class OutwardPosts {
   }
 
  private:
+  /// A part of one of the boxes of a choice, which has open claims.
+  struct Left {
+    std::int64_t box = 0;
+    OpenPart part;
+  };
   /// A choice of indices, and which of its claims are settled: bits, as far as they go.
   struct Open {
     std::int64_t choice = 0;
     std::uint64_t settled = 0;
+    std::unique_ptr<std::vector<Left>> left = {};  ///< null: nothing is proven of claims that are not settled
     [[nodiscard]] bool has_settled(std::size_t claim) const {
       return claim < kMostSettled && (settled >> claim & 1U) != 0;
     }
@@ -118,7 +126,14 @@ class OutwardPosts {
     std::vector<std::uint8_t> still_open(open_.size());
     const auto count = static_cast<std::int64_t>(open_.size());
     const std::int64_t block = effort.most_boxes == 1 ? 1024 : 64;
+    std::size_t bytes = 0;
+    std::int64_t looked_at = 0;
     const auto answered = [&](std::int64_t some) {
+      for (; looked_at < some; ++looked_at) {
+        std::unique_ptr<std::vector<Left>>& left = open_[static_cast<std::size_t>(looked_at)].left;
+        if (left) bytes += bytes_of(*left);
+        if (static_cast<double>(bytes) > kMostBytesOfOpenParts) left.reset();  // is begun anew
+      }
       tell(static_cast<std::size_t>(std::count(still_open.begin(), still_open.begin() + some, 0)));
     };
     const auto answer = [&](std::int64_t i, Work most, int worker) {
@@ -132,7 +147,7 @@ class OutwardPosts {
     answer_within(budget, count, block, team, answer, answered);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      if (still_open[i] != 0) open_[kept++] = open_[i];
+      if (still_open[i] != 0 && kept++ != i) open_[kept - 1] = std::move(open_[i]);
     }
     open_.resize(kept);
   }
@@ -142,28 +157,34 @@ class OutwardPosts {
     const Odometer choice(choices_.counts(), open.choice);
     const bool over = most == 0;
     const std::vector<Claimed> all = claims_of(choice);
-    std::vector<PostClaim> asked;
-    std::vector<std::size_t> numbers;
+    std::vector<PostClaim> claims;
+    std::vector<std::uint32_t> asked;
     for (std::size_t c = 0; c < all.size(); ++c) {
-      if (open.has_settled(c)) continue;
-      asked.push_back(all[c].claim);
-      numbers.push_back(c);
+      claims.push_back(all[c].claim);
+      if (!open.has_settled(c)) asked.push_back(static_cast<std::uint32_t>(c));
     }
     if (asked.empty()) return true;
     const std::vector<PostProof> proofs =
-        over ? std::vector<PostProof>(asked.size(), {PostVerdict::open, "the budget ended"})
-             : prove(choice, asked, effort, most, prover);
+        over ? std::vector<PostProof>(all.size(), {PostVerdict::open, "the budget ended"})
+             : prove(choice, claims, asked, open, effort, most, prover);
     bool settled = true;
-    for (std::size_t k = 0; k < proofs.size(); ++k) {
-      if (proofs[k].verdict == PostVerdict::open && !over && !is_last_) {
+    for (const std::uint32_t c : asked) {
+      if (proofs[c].verdict == PostVerdict::open && !over && !is_last_) {
         settled = false;
         continue;
       }
-      open.settle(numbers[k]);
-      const Claimed& one = all[numbers[k]];
-      for (const std::int64_t place : one.places) note(one.claim.target, place, proofs[k]);
+      open.settle(c);
+      for (const std::int64_t place : all[c].places) note(all[c].claim.target, place, proofs[c]);
     }
     return settled;
+  }
+
+  [[nodiscard]] static std::size_t bytes_of(const std::vector<Left>& left) {
+    std::size_t bytes = left.capacity() * sizeof(Left);
+    for (const Left& one : left)
+      bytes += one.part.cuts.capacity() * sizeof(std::uint16_t) +
+               one.part.claims.capacity() * sizeof(std::uint32_t) + kBytesOfAllocations;
+    return bytes;
   }
 
   /// Ranges as they are for the cell with index 0 if cells follow themselves, and whose they are.
@@ -206,20 +227,37 @@ class OutwardPosts {
     return {one(range.first), one(range.last)};
   }
 
+  /// Goes on with the parts that were left.
   [[nodiscard]] std::vector<PostProof> prove(const Odometer& choice, const std::vector<PostClaim>& claims,
+                                             const std::vector<std::uint32_t>& asked, Open& open,
                                              const PostEffort& effort, Work most, PostProver& prover) const {
+    const std::unique_ptr<std::vector<Left>> before =
+        std::exchange(open.left, std::make_unique<std::vector<Left>>());
     SpanBox slots = slots_;
     std::vector<PostProof> worst(claims.size());
+    std::int64_t box = -1;
     choices_.for_each_piece(choice, slots, [&](const Odometer&) {
-      std::vector<PostProof> proofs = prover.prove(slots, claims, effort, most);
+      ++box;
+      std::vector<OpenPart> parts;
+      if (!before) {
+        parts.push_back({.cuts = {}, .claims = asked});
+      } else {
+        for (const Left& one : *before) {
+          if (one.box == box) parts.push_back(one.part);
+        }
+      }
+      std::vector<PostProof> proofs = prover.prove(slots, claims, parts, effort, most);
+      for (OpenPart& part : parts) open.left->push_back({box, std::move(part)});
       bool all_wrong = true;
-      for (std::size_t c = 0; c < claims.size(); ++c) {
+      for (const std::uint32_t c : asked) {
         if (proofs[c].verdict != PostVerdict::holds && worst[c].verdict != PostVerdict::wrong)
           worst[c] = std::move(proofs[c]);
         all_wrong = all_wrong && worst[c].verdict == PostVerdict::wrong;
       }
       return !all_wrong;
     });
+    const auto is_whole = [](const Left& one) { return one.part.cuts.empty(); };
+    if (std::ranges::all_of(*open.left, is_whole) && box <= 0) open.left.reset();
     return worst;
   }
 

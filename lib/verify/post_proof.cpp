@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "answers/checking/cell_place.hpp"
@@ -28,6 +27,18 @@ const std::string& name_of(const SystemSpec& spec, std::uint32_t slot) {
   return spec.inputs[slot - spec.states.size()].name;
 }
 
+constexpr std::size_t kCuts = 4;  ///< of each variable
+
+/// Moves the claims that are not proven elsewhere to what is left: those that are open there.
+void leave(OpenPart& part, const std::vector<PostProof>& proofs, std::vector<OpenPart>& left) {
+  OpenPart rest{.cuts = part.cuts, .claims = {}};
+  std::erase_if(part.claims, [&](std::uint32_t c) {
+    if (proofs[c].verdict == PostVerdict::open) rest.claims.push_back(c);
+    return proofs[c].verdict != PostVerdict::holds;
+  });
+  if (!rest.claims.empty()) left.push_back(std::move(rest));
+}
+
 /// The next values of a group, of a map or a flow, whichever the spec has.
 std::unique_ptr<NextValue> next_values_of(const SystemSpec& spec, const UniformGrid& grid,
                                           const PostGroup& group) {
@@ -47,49 +58,72 @@ PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const Po
     values_.push_back(is_map ? 0 : row_of(group.influences, i).value_or(0));
 }
 
-/// Pieces are proven one after the other; only those where something does not fit are cut.
+/// Proves pieces one after the other, and cuts those where something does not fit. One that may not be cut is
+/// left, with all others for the claims that are open on it: these are not proven this time.
 std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
-                                         const PostEffort& effort, Work most) {
+                                         std::vector<OpenPart>& parts, const PostEffort& effort, Work most) {
   const Work end = work() + most;
   std::vector<PostProof> proofs(claims.size());
-  std::vector<Piece> pending = {{box, std::vector<std::size_t>(claims.size())}};
-  std::iota(pending.front().claims.begin(), pending.front().claims.end(), std::size_t{0});
+  std::vector<Piece> pending;
+  for (OpenPart& part : parts) pending.push_back(piece_of(box, std::move(part)));
+  parts.clear();
   for (int boxes = 1; !pending.empty(); ++boxes) {
     Piece piece = std::move(pending.back());
     pending.pop_back();
-    // Claims that are lost already need no more work.
-    std::erase_if(piece.claims, [&](std::size_t c) { return proofs[c].verdict != PostVerdict::holds; });
-    if (piece.claims.empty()) continue;
+    leave(piece.part, proofs, parts);
+    if (piece.part.claims.empty()) continue;
     const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && work() < end;
     std::vector<PostProof> own(claims.size());
     const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
-    std::erase_if(piece.claims, [&](std::size_t c) {
+    std::erase_if(piece.part.claims, [&](std::uint32_t c) {
       const bool is_open = own[c].verdict == PostVerdict::open;
       if (own[c].verdict == PostVerdict::wrong || (is_open && !(may_cut && cut))) proofs[c] = own[c];
       return !is_open;
     });
-    if (piece.claims.empty() || !may_cut || !cut) continue;
-    for (Piece& part : parts_of(piece, *cut)) pending.push_back(std::move(part));
+    leave(piece.part, proofs, parts);
+    if (piece.part.claims.empty()) continue;
+    for (Piece& next : parts_of(piece, *cut)) pending.push_back(std::move(next));
   }
   return proofs;
+}
+
+void PostProver::cut_off(Piece& piece, std::uint32_t slot, Cut cut) const {
+  const auto& slots = next_->divisible();
+  const auto number = static_cast<std::size_t>(std::find(slots.begin(), slots.end(), slot) - slots.begin());
+  ArbSpan& span = piece.box[slot];
+  if (cut == Cut::lower_face) {
+    span.upper = span.lower;
+  } else if (cut == Cut::upper_face) {
+    span.lower = span.upper;
+  } else {
+    const Arb middle = span.middle();
+    (cut == Cut::lower_half ? span.upper : span.lower) = middle;
+  }
+  piece.part.cuts.push_back(static_cast<std::uint16_t>(kCuts * number + static_cast<std::size_t>(cut)));
+}
+
+PostProver::Piece PostProver::piece_of(const SpanBox& box, OpenPart part) const {
+  Piece piece{box, {.cuts = {}, .claims = std::move(part.claims)}};
+  for (const std::uint16_t code : part.cuts)
+    cut_off(piece, next_->divisible()[code / kCuts], static_cast<Cut>(code % kCuts));
+  return piece;
 }
 
 /// Faces of a piece where all extremes are on these, else its halves.
 std::vector<PostProver::Piece> PostProver::parts_of(const Piece& piece, std::uint32_t cut) const {
   std::vector<Piece> parts;
-  const auto add = [&](std::uint32_t slot, const Arb& lower, const Arb& upper) {
+  const auto add = [&](std::uint32_t slot, Cut kind) {
     parts.push_back(piece);
-    parts.back().box[slot] = {lower, upper};
+    cut_off(parts.back(), slot, kind);
   };
   if (next_->has_extremes_on_faces()) {
     for (const std::uint32_t slot : next_->divisible()) {
-      add(slot, piece.box[slot].lower, piece.box[slot].lower);
-      add(slot, piece.box[slot].upper, piece.box[slot].upper);
+      add(slot, Cut::lower_face);
+      add(slot, Cut::upper_face);
     }
   } else {
-    const ArbSpan& whole = piece.box[cut];
-    add(cut, whole.middle(), whole.upper);
-    add(cut, whole.lower, whole.middle());
+    add(cut, Cut::upper_half);
+    add(cut, Cut::lower_half);
   }
   return parts;
 }
@@ -99,11 +133,11 @@ std::optional<std::uint32_t> PostProver::prove_piece(Piece& piece, const std::ve
                                                      const Effort& effort, std::vector<PostProof>& proofs) {
   const std::vector<std::uint32_t>& slots = next_->divisible();
   if (!next_->enclose(piece.box, effort)) {
-    for (const std::size_t c : piece.claims) proofs[c] = {PostVerdict::open, "no bound was found"};
+    for (const std::uint32_t c : piece.part.claims) proofs[c] = {PostVerdict::open, "no bound was found"};
     return widest(piece.box, std::vector<double>(slots.size()));
   }
   std::vector<double> excess(slots.size());
-  for (const std::size_t c : piece.claims) {
+  for (const std::uint32_t c : piece.part.claims) {
     const auto enough = [&](const Arb& lower, const Arb& upper) {
       return is_claimed(claims[c], lower, upper);
     };

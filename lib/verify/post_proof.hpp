@@ -30,6 +30,12 @@ struct PostProof {
   std::string why;  ///< where it ends, and from where; or why nothing is proven
 };
 
+/// A part of a box, by the cuts that lead to it, and the claims that are open on it.
+struct OpenPart {
+  std::vector<std::uint16_t> cuts;    ///< in the code of PostProver
+  std::vector<std::uint32_t> claims;  ///< by number
+};
+
 /// How far to go for one range: pieces of its cell, and the work for each of them.
 struct PostEffort {
   int most_boxes = 1;
@@ -52,18 +58,26 @@ class PostProver {
   PostProver(const SystemSpec& spec, const UniformGrid& grid, const PostGroup& group);
 
   /// @param box where the present state can be
+  /// @param parts of the box on which claims are to be proven; is set to those on which they are still open.
+  ///   A part without cuts is the whole box
   /// @param most work; a piece that is begun is finished
   /// @returns one a claim
   [[nodiscard]] std::vector<PostProof> prove(const SpanBox& box, const std::vector<PostClaim>& claims,
-                                             const PostEffort& effort, Work most);
+                                             std::vector<OpenPart>& parts, const PostEffort& effort,
+                                             Work most);
   /// Done so far.
   [[nodiscard]] Work work() const { return next_->work(); }
 
  private:
   struct Piece {
     SpanBox box;
-    std::vector<std::size_t> claims;  ///< that are open on it, by number
+    OpenPart part;
   };
+  /// What a cut leaves of the span of a variable.
+  enum class Cut : std::uint8_t { lower_face, upper_face, lower_half, upper_half };
+
+  void cut_off(Piece& piece, std::uint32_t slot, Cut cut) const;
+  [[nodiscard]] Piece piece_of(const SpanBox& box, OpenPart part) const;
   [[nodiscard]] std::vector<Piece> parts_of(const Piece& piece, std::uint32_t cut) const;
 
   [[nodiscard]] std::optional<std::uint32_t> prove_piece(Piece& piece, const std::vector<PostClaim>& claims,

@@ -57,6 +57,14 @@ const ArbSeries& SeriesField::run(std::size_t equation, slong length) {
   return equations_[equation](slots_, length);
 }
 
+const ArbSeries& SeriesField::extend(std::size_t equation, slong length) {
+  if (length == 1) return run(equation, length);
+  ExpressionSeries& own = equations_[equation];
+  const auto repeated = static_cast<Work>(own.repeated_operations());
+  work_ += repeated * length * (length + 1) / 2 + (static_cast<Work>(own.operations()) - repeated) * length;
+  return own.extend(slots_, length);
+}
+
 /// The box in parts, as an equation sees it; none: as all of them do.
 std::vector<ArbBox> SeriesField::seen(const ArbBox& box, std::optional<std::size_t> equation) const {
   std::vector<ArbBox> parts = {box};
@@ -127,7 +135,7 @@ std::optional<std::vector<ArbSeries>> SeriesField::taylor(const ArbBox& box, slo
   for (slong known = 1; known < length; ++known) {
     std::vector<Arb> next;
     for (std::size_t i = 0; i < equations_.size(); ++i) {
-      const Arb slope = run(i, known)[known - 1];
+      const Arb slope = extend(i, known)[known - 1];
       if (equations_[i].smoothness() != Smoothness::analytic || !slope.is_finite()) return std::nullopt;
       next.push_back(slope / Arb(static_cast<double>(known)));
     }

@@ -56,6 +56,7 @@ class SeriesField {
   void put(const ArbBox& box);
   [[nodiscard]] std::vector<ArbBox> seen(const ArbBox& box, std::optional<std::size_t> equation) const;
   const ArbSeries& run(std::size_t equation, slong length);
+  const ArbSeries& extend(std::size_t equation, slong length);
 
   std::vector<ExpressionSeries> equations_;
   std::vector<std::vector<bool>> mentions_;  ///< [equation][variable]

@@ -11,6 +11,7 @@
 #include "reach/table_shapes.hpp"
 #include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
+#include "verify/outward_posts.hpp"
 
 namespace coordreq {
 namespace {
@@ -60,6 +61,7 @@ double entries_of_posts(const ResultsReader& results, const std::vector<TableSha
 }
 
 double bytes_of_posts(const ResultsReader& results) {
+  constexpr double kBytesOfOpenEntry = 4096;
   const std::vector<TableShape> shapes = table_shapes(results.spec());
   const double entries = entries_of_posts(results, shapes);
   const bool has_tubes = results.spec().abstraction.between_samples;
@@ -68,7 +70,7 @@ double bytes_of_posts(const ResultsReader& results) {
   double bytes = 0;
   for (const TableShape& shape : shapes) bytes += (has_tubes ? 2 : 1) * shape.bytes;  // of the analysis
   if (has_tubes) of_entry += 2 * sizeof(IndexRange) + sizeof(ResolvedRange) + sizeof(std::uint8_t);
-  bytes += of_entry * entries;
+  bytes += of_entry * entries + std::min(2 * kMostBytesOfOpenParts, kBytesOfOpenEntry * entries);
   const auto inputs = static_cast<double>(results.inputs().count());
   return bytes + 2 * inputs * sizeof(std::int32_t) * static_cast<double>(shapes.size());
 }

@@ -129,8 +129,9 @@ TEST(PostProver, ProvesWhatSolutionsNeed) {
   box[1] = span_of(exact(1.75), exact(2.25));
   const auto verdicts = [&](IndexRange x, IndexRange y, int boxes) {
     PostProver prover(spec, grid, group);
+    std::vector<OpenPart> parts = {{.cuts = {}, .claims = {0, 1}}};
     const std::vector<PostProof> proofs =
-        prover.prove(box, {{0, x}, {1, y}}, {boxes, {16, 1e-6}}, 100'000'000);
+        prover.prove(box, {{0, x}, {1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000);
     return std::pair(proofs[0].verdict, proofs[1].verdict);
   };
   EXPECT_EQ(verdicts({9, 10}, {8, 14}, 64), std::pair(PostVerdict::holds, PostVerdict::holds));
