@@ -63,6 +63,7 @@ Arb ending_at_zero(const Arb& a, bool nonnegative) {
 }
 
 Arb hull(const Arb& a, const Arb& b) {
+  if (arb_equal(a.get(), b.get()) != 0) return a;
   Arb result;
   arb_union(result.get(), a.get(), b.get(), kArbBits);
   if (a.is_nonnegative() && b.is_nonnegative()) return ending_at_zero(result, true);

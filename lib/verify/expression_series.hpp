@@ -29,7 +29,7 @@ class ExpressionSeries {
   const ArbSeries& operator()(std::span<const ArbSeries> slots, slong length);
   /// The series with one term more than in the last result: nodes made by + - * / and squares have only this
   /// term computed.
-  /// @pre length >= 2
+  /// @param length of the series, at least 2
   /// @pre unchecked: the last result is for slots whose series agree in all other terms
   const ArbSeries& extend(std::span<const ArbSeries> slots, slong length);
   /// Smoothness of the last result. Where it is not analytic, coefficients from 2 on mean nothing.

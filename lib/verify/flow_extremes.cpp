@@ -30,7 +30,7 @@ bool same(const std::vector<Arb>& a, const std::vector<Arb>& b) {
 
 /// Work of the transition matrix of a step, and of the effect of disturbances in the step.
 Work work_of_transition(std::size_t states, std::size_t disturbances) {
-  constexpr std::size_t kProducts = 20;  // of matrices, for an exponential, about
+  constexpr std::size_t kProducts = 10;  // of matrices, for an exponential, about
   return static_cast<Work>(kProducts * states * states * (states + disturbances));
 }
 
@@ -105,7 +105,7 @@ class MiddleSolution {
 
   [[nodiscard]] bool advance(const ArbBox& tube) {
     constexpr double kNoLimit = std::numeric_limits<double>::max();
-    constexpr slong kTerms = 5;  // steps are short
+    constexpr slong kTerms = 4;  // steps are short
     std::optional<ArbBox> end = trajectory_.analytic_step(now_, tube, step_, kNoLimit, kTerms);
     if (!end) return trajectory_.integrate(now_, step_, tolerance_);
     now_ = std::move(*end);

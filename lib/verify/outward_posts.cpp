@@ -19,7 +19,7 @@
 namespace coordreq {
 namespace {
 
-constexpr std::size_t kBytesOfAllocations = 32;
+constexpr std::size_t kBytesOfAllocations = 32;  ///< of a part
 
 /// One round after the other, of more work for what is still open. Once more the same serves those that got
 /// a smaller share the first time.

@@ -1,12 +1,16 @@
 #include "verify/transition_matrix.hpp"
 
+#include <algorithm>
+
 #include "base/requires.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr int kMostTerms = 24;
+/// The tail of a series need not be less than this, or than this part of what slopes leave open.
 constexpr double kNegligible = 1e-17;
+constexpr double kNegligiblePart = 1e-4;
 
 /// Its entry (i, j) is 0 if and only if i does not depend on j, not even by way of others.
 ArbMatrix paths_in(const ArbMatrix& slopes, slong n) {
@@ -20,6 +24,14 @@ ArbMatrix paths_in(const ArbMatrix& slopes, slong n) {
   ArbMatrix paths = direct;
   arb_mat_pow_ui(paths.get(), direct.get(), static_cast<ulong>(n), kArbBits);
   return paths;
+}
+
+double most_width(const ArbMatrix& a, slong n) {
+  double most = 0.0;
+  for (slong i = 0; i < n; ++i) {
+    for (slong j = 0; j < n; ++j) most = std::max(most, mag_get_d(arb_radref(arb_mat_entry(a.get(), i, j))));
+  }
+  return 2 * most;
 }
 
 }  // namespace
@@ -38,8 +50,10 @@ ArbMatrix transition_matrix(const ArbMatrix& slopes, const Arb& duration) {
   Arb norm;  // of J h
   arb_mat_bound_inf_norm(arb_radref(norm.get()), slopes.get());
   norm = norm.upper() * duration.upper();
+  const double open = most_width(slopes, n) * duration.upper().approximately();
+  const double enough = std::max(kNegligible, kNegligiblePart * open);
   Arb tail(1.0);  // |J h|^k / k!
-  for (int k = 1; k <= kMostTerms && tail.upper().approximately() > kNegligible; ++k) {
+  for (int k = 1; k <= kMostTerms && tail.upper().approximately() > enough; ++k) {
     const Arb share = duration / Arb(static_cast<double>(k));
     term = term * slopes;
     arb_mat_scalar_mul_arb(term.get(), term.get(), share.get(), kArbBits);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "answers/checking/sloped.hpp"
 #include "expression/domains.hpp"
 #include "expression/functions.hpp"
@@ -39,6 +41,38 @@ TEST(ExpressionSeries, EveryFunctionHasItsValueAndItsSlope) {
       EXPECT_NEAR(found[0].approximately(), f.at_point(a, b), 1e-12);
       EXPECT_NEAR(found[1].approximately(), slope_at(f, a, b), 1e-6);
       EXPECT_EQ(series.smoothness(), Smoothness::analytic);
+    }
+  }
+}
+
+/// -(f(x, y) x / y - f(x, y))^2 of series, term by term and all at once.
+TEST(ExpressionSeries, EveryFunctionIsExtendedToWhatItIs) {
+  constexpr slong kLength = 6;
+  for (const NumberFunction& f : number_functions()) {
+    SCOPED_TRACE(f.spelling);
+    Program program = program_of(f.op);
+    program.constants = {Rational(2)};
+    for (const Program::Node& node : {Program::Node{Operator::multiply, 2, 0, 0},
+                                      {Operator::divide, 3, 1, 0},
+                                      {Operator::subtract, 4, 2, 0},
+                                      {Operator::constant, 0, 0, 0},
+                                      {Operator::power, 5, 6, 0},
+                                      {Operator::negate, 7, 0, 0}})
+      program.nodes.push_back(node);
+    for (const auto& [a, b] : kPlaces) {
+      ExpressionSeries at_once(program), extended(program);
+      std::vector<ArbSeries> slots(2);
+      for (slong k = 0; k < kLength; ++k) {
+        slots[0].set(k, Arb(k == 0 ? a : 0.5 / static_cast<double>(k)));
+        slots[1].set(k, k == 0 ? Arb(b) : hull(Arb(-0.25), Arb(-0.125)));
+      }
+      const ArbSeries all = at_once(slots, kLength);
+      for (slong k = 0; k < kLength; ++k) {
+        const ArbSeries& found = k == 0 ? extended(slots, 1) : extended.extend(slots, k + 1);
+        const double tolerance = 1e-7 * (1 + std::abs(all[k].approximately()) + all[k].width());
+        EXPECT_NEAR(found[k].lower().approximately(), all[k].lower().approximately(), tolerance);
+        EXPECT_NEAR(found[k].upper().approximately(), all[k].upper().approximately(), tolerance);
+      }
     }
   }
 }
