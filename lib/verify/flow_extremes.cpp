@@ -13,6 +13,8 @@ namespace coordreq {
 namespace {
 
 constexpr int kMostSteps = 128;
+constexpr int kSeveralSteps = 8;    ///< with fewer a tube is not narrowed
+constexpr int kManySteps = 32;      ///< with fewer a solution in the middle need not be as exact
 constexpr double kOfMiddle = 1e-2;  ///< tolerance of a solution around which others are, in cells
 
 ArbMatrix columns(const ArbMatrix& a, std::size_t rows, std::size_t first, std::size_t count) {
@@ -39,13 +41,14 @@ Work work_of_transition(std::size_t states, std::size_t disturbances) {
 /// value theorem), by what disturbances make of it, and by what was left out at the points.
 class MiddleSolution {
  public:
-  /// @param tolerance of the solution, for a step
+  /// @param tolerance of the solution, for a step @param terms of its series
   MiddleSolution(Trajectory& trajectory, const SpanBox& start, const std::vector<std::uint32_t>& states,
-                 const std::vector<std::uint32_t>& disturbances, Arb step, double tolerance)
+                 const std::vector<std::uint32_t>& disturbances, Arb step, double tolerance, slong terms)
       : trajectory_(trajectory),
         states_(states),
         step_(std::move(step)),
         tolerance_(tolerance),
+        terms_(terms),
         by_start_(states.size(), states.size()),
         distance_(states.size(), 1),
         disturbances_(disturbances.size()),
@@ -105,8 +108,7 @@ class MiddleSolution {
 
   [[nodiscard]] bool advance(const ArbBox& tube) {
     constexpr double kNoLimit = std::numeric_limits<double>::max();
-    constexpr slong kTerms = 4;  // steps are short
-    std::optional<ArbBox> end = trajectory_.analytic_step(now_, tube, step_, kNoLimit, kTerms);
+    std::optional<ArbBox> end = trajectory_.analytic_step(now_, tube, step_, kNoLimit, terms_);
     if (!end) return trajectory_.integrate(now_, step_, tolerance_);
     now_ = std::move(*end);
     return true;
@@ -116,6 +118,7 @@ class MiddleSolution {
   const std::vector<std::uint32_t>& states_;
   Arb step_;
   double tolerance_;
+  slong terms_;
   ArbBox now_;
   ArbMatrix by_start_;
   ArbMatrix distance_;  ///< from the middle of the start
@@ -182,10 +185,16 @@ bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
 
 /// Where the slopes would turn things round within a step, more steps are taken.
 bool FlowExtremes::find_steps() {
-  const Arb first_duration = period_ / Arb(static_cast<double>(effort_.steps));
-  const auto first = enclose_flow(field_, limits_, box_, first_duration, 1, 1);
-  const std::optional<ArbMatrix> slopes = first ? first->front().slopes : field_.jacobian(all_of(box_));
-  std::optional<std::vector<TubeStep>> steps = enclosed(slopes ? steps_for(*slopes, effort_) : effort_.steps);
+  const bool are_few = effort_.steps < kSeveralSteps;
+  std::optional<std::vector<TubeStep>> steps;
+  if (are_few) {
+    steps = enclosed(effort_.steps);
+  } else {  // the first one tells
+    steps = enclose_flow(field_, limits_, box_, period_ / Arb(static_cast<double>(effort_.steps)), 1, 1);
+  }
+  const std::optional<ArbMatrix> slopes = steps ? steps->front().slopes : field_.jacobian(all_of(box_));
+  const int count = slopes ? steps_for(*slopes, effort_) : effort_.steps;
+  if (!are_few || count > effort_.steps) steps = enclosed(count);
   if (steps) steps_ = std::move(*steps);
   return steps.has_value();
 }
@@ -204,9 +213,9 @@ bool FlowExtremes::passes_a_seam() const {
 }
 
 std::optional<std::vector<TubeStep>> FlowExtremes::enclosed(int steps) {
-  if (effort_.steps < 8) return enclose_flow(field_, limits_, box_, period_, steps, 1);
+  if (effort_.steps < kSeveralSteps) return enclose_flow(field_, limits_, box_, period_, steps, 1);
   MiddleSolution middle(trajectory_, box_, states_, disturbances_, period_ / Arb(static_cast<double>(steps)),
-                        kOfMiddle * cell_ / steps);
+                        kOfMiddle * cell_ / steps, effort_.steps < kManySteps ? 4 : 6);
   const int pieces = disturbances_.empty() ? 1 : std::min(effort_.steps / 4, 8);
   return enclose_flow(field_, limits_, box_, period_, steps, pieces,
                       [&](TubeStep& step) { matrix_work_ += middle.narrow(step); });
