@@ -189,7 +189,7 @@ bool FlowExtremes::find_steps() {
   std::optional<std::vector<TubeStep>> steps;
   if (are_few) {
     steps = enclosed(effort_.steps);
-  } else {  // the first one tells
+  } else {  // one step shows how short they have to be
     steps = enclose_flow(field_, limits_, box_, period_ / Arb(static_cast<double>(effort_.steps)), 1, 1);
   }
   const std::optional<ArbMatrix> slopes = steps ? steps->front().slopes : field_.jacobian(all_of(box_));

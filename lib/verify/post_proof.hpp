@@ -73,7 +73,7 @@ class PostProver {
     SpanBox box;
     OpenPart part;
   };
-  /// What a cut leaves of the span of a variable.
+  /// The part of the span of a variable that a cut leaves.
   enum class Cut : std::uint8_t { lower_face, upper_face, lower_half, upper_half };
 
   void cut_off(Piece& piece, std::uint32_t slot, Cut cut) const;

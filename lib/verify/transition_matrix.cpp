@@ -26,6 +26,7 @@ ArbMatrix paths_in(const ArbMatrix& slopes, slong n) {
   return paths;
 }
 
+/// The widest entry.
 double most_width(const ArbMatrix& a, slong n) {
   double most = 0.0;
   for (slong i = 0; i < n; ++i) {

@@ -61,7 +61,7 @@ double entries_of_posts(const ResultsReader& results, const std::vector<TableSha
 }
 
 double bytes_of_posts(const ResultsReader& results) {
-  constexpr double kBytesOfOpenEntry = 4096;
+  constexpr double kBytesOfOpenEntry = 4096;  // of the parts of its cell that are not proven yet
   const std::vector<TableShape> shapes = table_shapes(results.spec());
   const double entries = entries_of_posts(results, shapes);
   const bool has_tubes = results.spec().abstraction.between_samples;

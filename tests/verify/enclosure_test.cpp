@@ -138,6 +138,21 @@ TEST(PostProver, ProvesWhatSolutionsNeed) {
   EXPECT_EQ(verdicts({9, 10}, {8, 14}, 1).second, PostVerdict::open);
   EXPECT_NE(verdicts({9, 10}, {9, 14}, 64).second, PostVerdict::holds);
   EXPECT_NE(verdicts({9, 10}, {8, 13}, 64).second, PostVerdict::holds);
+  // In rounds of more and more pieces, each of which begins where the one before has ended.
+  const auto in_rounds = [&](IndexRange y) {
+    PostProver prover(spec, grid, group);
+    std::vector<OpenPart> parts = {{.cuts = {}, .claims = {0}}};
+    PostVerdict verdict = PostVerdict::open;
+    int rounds = 0;
+    for (int boxes = 1; verdict == PostVerdict::open && boxes <= 64; boxes *= 4, ++rounds)
+      verdict = prover.prove(box, {{1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000)[0].verdict;
+    EXPECT_EQ(parts.empty(), verdict != PostVerdict::open);
+    return std::pair(verdict, rounds);
+  };
+  EXPECT_EQ(in_rounds({8, 14}).first, PostVerdict::holds);
+  EXPECT_GT(in_rounds({8, 14}).second, 1);
+  EXPECT_NE(in_rounds({9, 14}).first, PostVerdict::holds);
+  EXPECT_NE(in_rounds({8, 13}).first, PostVerdict::holds);
 }
 
 TEST(FlowExtremes, LogisticGrowthIsTheHull) {
