@@ -14,8 +14,6 @@ struct FastPaths {
   bool joined_rows = true;          ///< rows along several dimensions
   bool added_rows = true;           ///< sums are read cell by cell, not written out as segments
   bool shared_minima = true;        ///< of the leading dimensions, for all rows of a unit
-  bool row_bounds = true;           ///< one box around all posts of a row
-  bool free_rows = true;            ///< rows in which all actions are admissible, seen from that box
   bool equal_rows = true;           ///< rows and units that are equal are worked out, held and packed once
   bool like_agents = true;          ///< one order of agents that are alike stands for all
   bool grouped_actions = true;      ///< actions with the same posts in a row are one
@@ -49,8 +47,6 @@ inline constexpr FastPath kFastPaths[] = {
     {"joined_rows", &FastPaths::joined_rows, true},
     {"added_rows", &FastPaths::added_rows, true},
     {"shared_minima", &FastPaths::shared_minima, true},
-    {"row_bounds", &FastPaths::row_bounds, true},
-    {"free_rows", &FastPaths::free_rows, true},
     {"equal_rows", &FastPaths::equal_rows, true},
     {"like_agents", &FastPaths::like_agents, true},
     {"grouped_actions", &FastPaths::grouped_actions, true},

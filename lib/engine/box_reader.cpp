@@ -73,7 +73,6 @@ const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
 
 template <class Level>
 const Level* BoxReader<Level>::minimum(const RowBox& box, std::int64_t begin, std::int64_t end) {
-  REQUIRES(box.covers);
   ranges_ = box.ranges;
   windows_ = box.windows;
   read_windows(false, begin, end, result_.data());

@@ -28,7 +28,8 @@ class BoxReader final : public RowReader<Level> {
   void read(const LevelRows<Level>& levels) override { levels_ = &levels; }
   void enter() override;
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override;
-  /// Least levels of the box around all posts of a row, for its lanes [begin, end). @pre box.covers
+  /// Least levels of a box of cells, for the lanes [begin, end) of a row.
+  /// @pre unchecked: it lies inside the domain or its margins
   [[nodiscard]] const Level* minimum(const RowBox& box, std::int64_t begin, std::int64_t end);
 
   [[nodiscard]] const LevelKernels<Level>& kernels() const { return *kernels_; }

@@ -64,18 +64,15 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
 }
 
 /// Makes rows equal to their canonical rows, whose bounds are bounds of all permuted rows. The least of these
-/// would be closer, but a process does not hold all of them. @returns whether a level has changed; it may
-/// have risen
+/// would be closer, but a process does not hold all of them.
 template <class Level>
-bool copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels) {
-  bool has_changed = false;
+void copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels) {
   for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
       const std::int64_t first = symmetry.canonical_of(r);
-      if (first != r && levels.copy_row(first, r)) has_changed = true;
+      if (first != r) static_cast<void>(levels.copy_row(first, r));
     }
   }
-  return has_changed;
 }
 
 /// Whether some cell of any process has this level. Levels in gaps do not count.
@@ -118,10 +115,8 @@ class LevelFinder {
   LevelMap from_start() {
     return fast_paths().narrow_levels ? from_start_of<std::uint8_t>() : from_start_of<std::uint32_t>();
   }
-  /// @param settled of these levels: rows settled at the bounds need not be at levels that have sunk below
-  /// them
   template <class Level>
-  LevelMap from(LevelRows<Level> levels, const std::vector<std::uint8_t>& settled = {}) {
+  LevelMap from(LevelRows<Level> levels) {
     const auto op = make_operator<Level>();
     // The sweeps of all widths are numbered through.
     const std::int64_t before = counts_.sweeps;
@@ -130,10 +125,9 @@ class LevelFinder {
       watch_.step(step);
     } : std::function<void(const WaveStep&)>()};
     const RowSymmetry* const symmetry = problem_.equal.symmetry;
-    const bool has_changed = symmetry != nullptr && copy_canonical_rows(*symmetry, levels);
-    counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit),
-                         has_changed ? std::vector<std::uint8_t>{} : settled, *op, watch, team_,
-                         problem_.equal));
+    if (symmetry != nullptr) copy_canonical_rows(*symmetry, levels);
+    counts_.add(
+        run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), *op, watch, team_, problem_.equal));
     if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {
       if (!is_enough(levels, op->rises(), problem_.limit))
         return from(widened_and_bounded(std::move(levels), op->rises()));
@@ -146,8 +140,7 @@ class LevelFinder {
   LevelMap from_start_of() {
     auto levels = engine_.make_levels<Level>(*problem_.start, team_, problem_.equal.tiles != nullptr);
     for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
-    const std::vector<std::uint8_t> nothing;
-    return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
+    return from(std::move(levels));
   }
 
   template <class Level>

@@ -26,8 +26,6 @@ struct LevelProblem {
   /// 2. From B levels only ever sink, as run_wave() requires: 1 + op(B) <= 1 + op'(L') = L' for each bound
   ///    L', since B <= L' and op is monotone, so 1 + op(B) <= B.
   std::vector<const LevelMap*> bounds;
-  /// [row] not 0 where 1 + op(B) = B, see run_wave(); null: not known of any.
-  const std::vector<std::uint8_t>* settled = nullptr;
   /// The numbers that, with the levels, the operator depends on; see run_wave().
   EqualWork equal = {};
   /// Finite levels go up to this; cells that would have more count as never lost. Negative: no limit.

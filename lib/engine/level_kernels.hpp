@@ -32,8 +32,6 @@ struct LevelKernels {
   void (*lower_where)(const Level* source, const Level* lanes, Level* target, std::size_t n);
   /// target[j] = min(target[j], source[j]) where labels[j] == label.
   void (*lower_at)(const Level* source, const Level* labels, Level label, Level* target, std::size_t n);
-  /// True if row[j] is the greatest level wherever lanes[j] != 0.
-  bool (*is_top)(const Level* row, const Level* lanes, std::size_t n);
   /// True if row[j] + 1 >= bound[j] in every lane, counted without overflow.
   bool (*is_settled)(const Level* row, const Level* bound, std::size_t n);
   /// From the first to the last lane where lanes[j] is all ones and row[j] < bound[j].

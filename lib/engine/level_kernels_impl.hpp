@@ -128,16 +128,6 @@ void lower_at(const Level* source, const Level* labels, Level label, Level* targ
 }
 
 template <class Level>
-bool is_top(const Level* row, const Level* lanes, size_t n) {
-  constexpr auto kTop = static_cast<Level>(~Level{0});
-  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const auto below = (load(row + j) != kTop) & (load(lanes + j) != Level{0});
-    if (any_before(below, n - j)) return false;
-  }
-  return true;
-}
-
-template <class Level>
 bool is_settled(const Level* row, const Level* bound, size_t n) {
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
     // bound <= row + 1 without overflow: bound is 0, or bound - 1 <= row.
@@ -287,9 +277,9 @@ Level lowest_change(const Level* row, const Level* other, size_t n) {
 
 template <class Level>
 constexpr LevelKernels<Level> kKernels{
-    minimum<Level>,    raise<Level>,      raise_where<Level>, lower_where<Level>,  lower_at<Level>,
-    is_top<Level>,     is_settled<Level>, below<Level>,       spread<Level>,       top_bits<Level>,
-    above_bits<Level>, advance<Level>,    rise<Level>,        lowest_change<Level>};
+    minimum<Level>,    raise<Level>, raise_where<Level>,  lower_where<Level>, lower_at<Level>,
+    is_settled<Level>, below<Level>, spread<Level>,       top_bits<Level>,    above_bits<Level>,
+    advance<Level>,    rise<Level>,  lowest_change<Level>};
 
 }  // namespace
 

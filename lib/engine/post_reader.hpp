@@ -77,9 +77,8 @@ class PostReader {
   [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes) {
     return bounds_several_ && has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
   }
-  /// Least levels of the box around all posts of a row. @pre box.covers
+  /// Least levels of a box of cells. @pre unchecked: it lies inside the domain or its margins
   [[nodiscard]] const Level* minimum(const RowBox& box) {
-    REQUIRES(box.covers);
     return boxes_.minimum(box, 0, engine_.row_length());
   }
   /// minimum() for the lanes [begin, end) of the row alone.

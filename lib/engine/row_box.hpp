@@ -61,10 +61,6 @@ struct RowBox {
   std::vector<IndexRange> ranges;
   /// Offsets in the dimensions along the row.
   std::vector<IndexRange> windows;
-  /// Every post is one box of cells inside the domain or its margins, and inside this box: levels that all
-  /// cells of the box have at least, all posts have at least. Else the box only names the rows that posts can
-  /// meet.
-  bool covers = true;
 
   void resize(const UniformGrid& grid) {
     ranges.resize(grid.across());

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "base/fast_paths.hpp"
-
 namespace coordreq {
 namespace {
 
@@ -53,10 +51,10 @@ class BoxCount {
 /// The ranges of the tubes of rows in one dimension across rows.
 struct TubeHull {
   const RowSlices* slices;
-  std::vector<SliceHull> hulls;
+  std::vector<IndexRange> hulls;
 
   [[nodiscard]] IndexRange range(const RowPlace& place) const {
-    return hulls[static_cast<std::size_t>(slices->base(place) / slices->input_combinations)].range;
+    return hulls[static_cast<std::size_t>(slices->base(place) / slices->input_combinations)];
   }
 };
 using TubeHulls = std::vector<TubeHull>;
@@ -76,8 +74,7 @@ std::vector<TubeHulls> hulls_of_tubes(const RowEngine& engine) {
 
 }  // namespace
 
-RowHull::RowHull(const RowEngine& engine)
-    : engine_(&engine), is_bound_(fast_paths().row_bounds && engine.demands().empty()) {
+RowHull::RowHull(const RowEngine& engine) : engine_(&engine) {
   const RowFamily posts = engine.posts();
   for (std::size_t i = 0; i < engine.tables(); ++i) {
     const bool is_along = i >= engine.across();
@@ -86,19 +83,14 @@ RowHull::RowHull(const RowEngine& engine)
   }
 }
 
-const SliceHull& RowHull::hull(const RowPlace& place, std::size_t i) const {
+IndexRange RowHull::range(const RowPlace& place, std::size_t i) const {
   const RowSlices& slices = engine_->slices()[i];
   return hulls_[i][static_cast<std::size_t>(slices.base(place) / slices.input_combinations)];
 }
 
 void RowHull::box(const RowPlace& place, RowBox& box) const {
   box.resize(engine_->grid());
-  box.covers = is_bound_;
-  for (std::size_t i = 0; i < engine_->tables(); ++i) {
-    const SliceHull& slice = hull(place, i);
-    box[i] = slice.range;
-    box.covers = box.covers && slice.covers;
-  }
+  for (std::size_t i = 0; i < engine_->tables(); ++i) box[i] = range(place, i);
 }
 
 std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range rows) const {
@@ -124,7 +116,7 @@ std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range 
 
 std::uint64_t RowHull::bytes() const {
   std::uint64_t total = 0;
-  for (const std::vector<SliceHull>& hulls : hulls_) total += hulls.size() * sizeof(SliceHull);
+  for (const std::vector<IndexRange>& hulls : hulls_) total += hulls.size() * sizeof(IndexRange);
   return total;
 }
 

@@ -8,8 +8,7 @@
 namespace coordreq {
 
 /// For each row the smallest box that holds the posts of its cells under all inputs: it names the rows that
-/// posts can meet, and its minimum is a bound for levels that costs one read instead of one for each joint
-/// action (the switch is FastPaths::row_bounds).
+/// posts can meet.
 ///
 /// Segments that are blocked, or gone, add nothing to the box.
 /// Immutable once built, so safe to share between threads.
@@ -21,11 +20,9 @@ class RowHull {
   /// box = the box of the posts of a row.
   void box(const RowPlace& place, RowBox& box) const;
   /// The range or window of that box in dimension i.
-  [[nodiscard]] IndexRange range(const RowPlace& place, std::size_t i) const { return hull(place, i).range; }
+  [[nodiscard]] IndexRange range(const RowPlace& place, std::size_t i) const;
   /// range() for a choice of the states that the table of dimension i uses.
-  [[nodiscard]] IndexRange range_of(std::size_t choice, std::size_t i) const {
-    return hulls_[i][choice].range;
-  }
+  [[nodiscard]] IndexRange range_of(std::size_t choice, std::size_t i) const { return hulls_[i][choice]; }
 
   /// [row] not 0 for the rows that posts and tubes of cells in some rows can meet.
   /// @param set of the cells; null: all cells of the rows
@@ -34,11 +31,8 @@ class RowHull {
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
-  [[nodiscard]] const SliceHull& hull(const RowPlace& place, std::size_t i) const;
-
   const RowEngine* engine_;
-  bool is_bound_ = true;                       ///< boxes may cover: no tube can block a post
-  std::vector<std::vector<SliceHull>> hulls_;  ///< [dimension][choice of the states that its table uses]
+  std::vector<std::vector<IndexRange>> hulls_;  ///< [dimension][choice of the states that its table uses]
 };
 
 }  // namespace coordreq

@@ -69,15 +69,11 @@ struct RowSlices {
   [[nodiscard]] std::uint64_t bytes() const;
 };
 
-/// A range around the slices at some positions of a table.
-struct SliceHull {
-  IndexRange range{0, -1};  ///< resolved, or a window along the row; {0, -1}: the slices meet no cell
-  bool covers = false;      ///< every slice is one segment inside `range`
-};
-/// For each base, a multiple of input_combinations: the hull of the slices from there to the next one.
+/// For each base, a multiple of input_combinations: the range around the slices from there to the next one,
+/// resolved, or a window along the row; {0, -1}: the slices meet no cell.
 /// @param along the table's dimension if it is along rows; null: it is across them
-[[nodiscard]] std::vector<SliceHull> slice_hulls(const RowSlices& slices, const GridDimension& target,
-                                                 const RowDimension* along);
+[[nodiscard]] std::vector<IndexRange> slice_hulls(const RowSlices& slices, const GridDimension& target,
+                                                  const RowDimension* along);
 
 /// Cuts a table into slices. @param table of `state`, in abstraction.tables or abstraction.tubes
 /// @param target the dimension of `state`, maybe with other rules for leaving the domain

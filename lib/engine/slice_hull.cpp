@@ -27,51 +27,38 @@ IndexRange normal(IndexRange range, const GridDimension& target) {
 }
 
 /// The hull of slices that are lists of segments.
-SliceHull hull_of_segments(const RowSlices& slices, std::int64_t base, const GridDimension& target,
-                           const RowDimension* along) {
+IndexRange hull_of_segments(const RowSlices& slices, std::int64_t base, const GridDimension& target,
+                            const RowDimension* along) {
   const Kind expected = along != nullptr ? Kind::shifted : Kind::fixed;
-  SliceHull result{kNone, true};
+  IndexRange result = kNone;
   std::uint32_t previous = UINT32_MAX;
   for (std::int64_t position = base; position < base + slices.input_combinations; ++position) {
     const std::uint32_t id = slices.number(position);
     if (id == previous) continue;
     previous = id;
-    const std::vector<RowSegment>& slice = slices.slices[id];
-    result.covers = result.covers && slice.size() == 1 && slice[0].kind == expected;
-    for (const RowSegment& segment : slice) {
+    for (const RowSegment& segment : slices.slices[id]) {
       if (segment.kind != expected) continue;
       const IndexRange range = normal(segment.range, target);
-      result.range = result.range == kNone ? range : merge_ranges(result.range, range, target);
+      result = result == kNone ? range : merge_ranges(result, range, target);
     }
   }
-  if (result.range == kNone) {
-    result.covers = false;
-  } else if (along != nullptr) {
-    result.range = fit_window(result.range, target.count, along->ends);
-    // On a ring the arc that holds two windows may begin with the other one, and reach beyond the margins.
-    result.covers = result.covers && -result.range.first <= along->margins.before &&
-                    result.range.last <= along->margins.after;
-  } else if (target.periodic()) {
-    result.range = wrap_range(result.range, target.count);
-  }
-  return result;
+  if (result == kNone) return result;
+  if (along != nullptr) return fit_window(result, target.count, along->ends);
+  return target.periodic() ? wrap_range(result, target.count) : result;
 }
 
 /// The hull of sums, by the bounds of their profiles; the state of a sum does not wrap round.
-SliceHull hull_of_sums(const RowSlices& slices, std::int64_t base, SumRows::Reader& reader,
-                       const GridDimension& target, const RowDimension* along) {
+IndexRange hull_of_sums(const RowSlices& slices, std::int64_t base, SumRows::Reader& reader,
+                        const GridDimension& target, const RowDimension* along) {
   IndexRange raw{INT32_MAX, INT32_MIN};
   for (std::int64_t position = base; position < base + slices.input_combinations; ++position) {
     const SumRows::Row row = reader.row(slices.number(position));
     const IndexRange range = along != nullptr ? slices.sums->offset_hull(row) : slices.sums->hull(row);
     raw = {std::min(raw.first, range.first), std::max(raw.last, range.last)};
   }
-  if (along != nullptr) return {fit_window(raw, target.count, along->ends), true};
+  if (along != nullptr) return fit_window(raw, target.count, along->ends);
   const auto last = static_cast<std::int32_t>(target.count - 1);
-  // Cells that leave safely, or land in the boundary cell, are at no lower level than the rest of the box.
-  const bool blocks =
-      (raw.first < 0 && traits(target.below).blocks) || (raw.last > last && traits(target.above).blocks);
-  return {{std::clamp(raw.first, 0, last), std::clamp(raw.last, 0, last)}, !blocks};
+  return {std::clamp(raw.first, 0, last), std::clamp(raw.last, 0, last)};
 }
 
 }  // namespace
@@ -86,11 +73,11 @@ bool RowSlices::is_within(std::uint32_t a, std::uint32_t b, const GridDimension&
   return one[0].kind == other[0].kind && range_within(one[0].range, other[0].range, target);
 }
 
-std::vector<SliceHull> slice_hulls(const RowSlices& slices, const GridDimension& target,
-                                   const RowDimension* along) {
+std::vector<IndexRange> slice_hulls(const RowSlices& slices, const GridDimension& target,
+                                    const RowDimension* along) {
   std::optional<SumRows::Reader> reader;
   if (slices.sums) reader.emplace(*slices.sums);
-  std::vector<SliceHull> hulls;
+  std::vector<IndexRange> hulls;
   for (std::int64_t base = 0; base < slices.size(); base += slices.input_combinations) {
     hulls.push_back(reader ? hull_of_sums(slices, base, *reader, target, along)
                            : hull_of_segments(slices, base, target, along));

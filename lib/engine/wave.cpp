@@ -31,13 +31,11 @@ template <class Level>
 class WaveRunner {
  public:
   WaveRunner(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-             const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-             ThreadTeam& team, const EqualWork& equal)
+             RowOperator<Level>& op, const WaveWatch& watch, ThreadTeam& team, const EqualWork& equal)
       : levels_(levels),
         engine_(engine),
         own_(own_rows(engine.share(), engine.rows())),
         limit_(limit),
-        settled_(settled),
         op_(op),
         watch_(watch),
         team_(team),
@@ -51,7 +49,7 @@ class WaveRunner {
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
     for (std::int64_t row = own_.begin; row < own_.end; ++row) {
-      if (alive_.has(row) && !is_settled(row)) dirty_.set_unseen(row / unit_rows_);
+      if (alive_.has(row)) dirty_.set_unseen(row / unit_rows_);
     }
     if (fast_paths().level_delta && op.is_minimum() && !engine.posts().is_cut()) delta_.emplace(engine, team);
     if (engine.share() != nullptr) ghosts_.emplace(levels, engine, hull, dirty_, unit_rows_);
@@ -142,10 +140,6 @@ class WaveRunner {
     std::uint32_t batch = 0;  ///< in which the reader was entered
     std::int64_t unit = -1;   ///< that the reader was entered for
   };
-
-  [[nodiscard]] bool is_settled(std::int64_t row) const {
-    return !settled_.empty() && settled_[static_cast<std::size_t>(row)] != 0;
-  }
 
   std::int64_t run(const std::vector<std::int64_t>& batch) {
     batch_ = dirty_.begin_batch();
@@ -242,8 +236,7 @@ class WaveRunner {
   [[nodiscard]] bool is_to_be_looked_at(const RowPlace& place, std::int64_t unit,
                                         DirtyRows::Scratch& scratch) const {
     if (!alive_.has(place.row)) return false;
-    const bool is_new = dirty_.is_unseen(unit) && !is_settled(place.row);
-    return is_new || dirty_.meets_change(place, unit, scratch);
+    return dirty_.is_unseen(unit) || dirty_.meets_change(place, unit, scratch);
   }
 
   void visit(const Task& task, int w) {
@@ -253,8 +246,7 @@ class WaveRunner {
       worker.batch = batch_;
       worker.unit = task.unit;
     }
-    if (!task.is_wanted && (!dirty_.is_unseen(task.unit) || !settled_.empty()))
-      dirty_.enter(task.unit, worker.dirty);
+    if (!task.is_wanted && !dirty_.is_unseen(task.unit)) dirty_.enter(task.unit, worker.dirty);
     RowPlace place(engine_.grid(), task.begin);
     for (; place.row < task.end; place.advance(engine_.grid())) {
       if (task.is_wanted || is_to_be_looked_at(place, task.unit, worker.dirty)) visit_row(place, worker, w);
@@ -340,7 +332,6 @@ class WaveRunner {
   const RowEngine& engine_;
   RowShare::Range own_;
   Level limit_;
-  const std::vector<std::uint8_t>& settled_;
   RowOperator<Level>& op_;
   const WaveWatch& watch_;
   ThreadTeam& team_;
@@ -370,9 +361,9 @@ class WaveRunner {
 
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-                    ThreadTeam& team, const EqualWork& equal) {
-  WaveRunner<Level> runner(levels, engine, hull, limit, settled, op, watch, team, equal);
+                    RowOperator<Level>& op, const WaveWatch& watch, ThreadTeam& team,
+                    const EqualWork& equal) {
+  WaveRunner<Level> runner(levels, engine, hull, limit, op, watch, team, equal);
   WaveCounts counts;
   for (;;) {
     const std::int64_t visited = runner.sweep(++counts.sweeps);
@@ -388,13 +379,10 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
 }
 
 template WaveCounts run_wave(LevelRows<std::uint8_t>&, const RowEngine&, const RowHull&, std::uint8_t,
-                             const std::vector<std::uint8_t>&, RowOperator<std::uint8_t>&, const WaveWatch&,
-                             ThreadTeam&, const EqualWork&);
+                             RowOperator<std::uint8_t>&, const WaveWatch&, ThreadTeam&, const EqualWork&);
 template WaveCounts run_wave(LevelRows<std::uint16_t>&, const RowEngine&, const RowHull&, std::uint16_t,
-                             const std::vector<std::uint8_t>&, RowOperator<std::uint16_t>&, const WaveWatch&,
-                             ThreadTeam&, const EqualWork&);
+                             RowOperator<std::uint16_t>&, const WaveWatch&, ThreadTeam&, const EqualWork&);
 template WaveCounts run_wave(LevelRows<std::uint32_t>&, const RowEngine&, const RowHull&, std::uint32_t,
-                             const std::vector<std::uint8_t>&, RowOperator<std::uint32_t>&, const WaveWatch&,
-                             ThreadTeam&, const EqualWork&);
+                             RowOperator<std::uint32_t>&, const WaveWatch&, ThreadTeam&, const EqualWork&);
 
 }  // namespace coordreq

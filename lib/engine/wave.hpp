@@ -48,9 +48,10 @@ class RowOperator {
 /// 1. While threads work out a batch no level changes; rows are written when all of them are through. So the
 ///    result, and every count, is the same for any number of threads.
 /// 2. A unit is looked at in at most one batch of a sweep.
-/// 3. Of the rows that can still change those are visited whose unit has not been looked at yet (but for
-///    settled rows), or whose posts can meet a row that has changed in or after the batch that looked at
-///    their unit last. So a row that is passed over would keep its levels.
+/// 3. Of the rows that can still change those are visited whose unit has not been looked at yet, or whose
+/// posts
+///    can meet a row that has changed in or after the batch that looked at their unit last. So a row that is
+///    passed over would keep its levels.
 /// 4. Levels are never below the solution (above it where they rise), so that work that was broken off can
 ///    begin anew at any step.
 /// 5. Between batches permuted rows are equal to their canonical row, if there is a symmetry.
@@ -67,8 +68,6 @@ class RowOperator {
 /// instead. A cell has level kTop - i if it is i steps from a goal, 1 if it is not known to come there, and
 /// 0, for ever, if it does not count. So the least level of a post is that of its farthest cell, and readers
 /// and operators serve both kinds of levels. There is no limit then, and i goes up to kTop - 2.
-/// @param settled [row] not 0 where 1 + op(levels) is known to be the given levels: such a row is not visited
-///   before a row that its posts can meet has changed. Empty: no row is known to be so
 /// @param watch its `resumed` is not looked at
 /// @param equal tiles whose numbers, with the levels, are all that the operator's result depends on. Where
 ///   rows of levels are interned, work that is equal to work done in the same sweep is not done again. Of
@@ -76,7 +75,7 @@ class RowOperator {
 ///   and levels are the same in permuted rows
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-                    ThreadTeam& team, const EqualWork& equal = {});
+                    RowOperator<Level>& op, const WaveWatch& watch, ThreadTeam& team,
+                    const EqualWork& equal = {});
 
 }  // namespace coordreq

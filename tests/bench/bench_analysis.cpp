@@ -46,7 +46,7 @@ void sweep(benchmark::State& state) {
   const Invariance invariance = find_invariance(engine, hull, safe, Synthesis::maximal, {}, team);
   const ActionGrouping grouping(engine, single_classes(built.inputs), team);
   const Controller controller{&engine, &invariance.invariant, &invariance.collision_time, Synthesis::maximal};
-  for (auto _ : state) benchmark::DoNotOptimize(Projections(controller, grouping, hull, team));
+  for (auto _ : state) benchmark::DoNotOptimize(Projections(controller, grouping, team));
   state.counters["pairs/s"] =
       benchmark::Counter(static_cast<double>(built.grid.cells()) * static_cast<double>(built.inputs.count()),
                          benchmark::Counter::kIsIterationInvariantRate);

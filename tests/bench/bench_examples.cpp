@@ -136,8 +136,8 @@ void sweep(benchmark::State& state, const std::string& name) {
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const std::vector<InputClass> classes = single_classes(engine.abstraction().inputs);
   const ActionGrouping grouping(engine, classes, team);
-  const Projections projections(answers.get<Controller>(), grouping, *answers.context.hull, team);
-  IndependentActions<Level> actions(projections, *answers.context.hull, invariant, team.size());
+  const Projections projections(answers.get<Controller>(), grouping, team);
+  IndependentActions<Level> actions(projections, invariant, team.size());
   auto levels = engine.make_levels<Level>(invariant, team);
   const ExpectedRisk expected({{0, Rational(9, 10), Rational(9, 10)}, {1, Rational(1, 10), Rational(1, 10)}});
   const std::vector<RiskRows> risks = first_risks(invariant, 2, nullptr);

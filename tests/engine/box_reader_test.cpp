@@ -271,7 +271,7 @@ TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
     BoxReader<TypeParam> reader(problem.engine, problem.family, 1, rows);
     std::vector<RowBox> boxes(5);
     for (RowBox& box : boxes)
-      box = {{random_range(problem.dimensions[0]), random_range(problem.dimensions[1])}, {{0, 0}}, true};
+      box = {{random_range(problem.dimensions[0]), random_range(problem.dimensions[1])}, {{0, 0}}};
     for (int k = 0; k < 20; ++k) {
       const RowBox& box = boxes[static_cast<std::size_t>(draw(0, 4))];
       const TypeParam* row = reader.minimum(box, 0, problem.engine.row_length());
@@ -313,7 +313,7 @@ TEST(BoxReader, TheLastSharedRowIsReadToTheEndOfABlock) {
     });
   }
   BoxReader<std::uint8_t> reader(engine, engine.posts(), engine.outer(), levels);
-  const std::uint8_t* row = reader.minimum(RowBox{{{0, 1}, {2, 2}}, {{0, 1}}, true}, 0, 62);
+  const std::uint8_t* row = reader.minimum(RowBox{{{0, 1}, {2, 2}}, {{0, 1}}}, 0, 62);
   for (std::int64_t c = 0; c < 62; ++c) EXPECT_EQ(row[c], 200 - std::min<std::int64_t>(c + 1, 61) - 5);
 }
 

@@ -102,19 +102,9 @@ TYPED_TEST(LevelKernelsTest, RaisingAndLowering) {
   });
 }
 
-TYPED_TEST(LevelKernelsTest, TopAndSettled) {
-  this->check("is_top, is_settled", [](const auto& kernels, std::size_t n) {
+TYPED_TEST(LevelKernelsTest, Settled) {
+  this->check("is_settled", [](const auto& kernels, std::size_t n) {
     Row<TypeParam> row(n);
-    Row<TypeParam> where = TestFixture::lanes(n);
-    if (*rc::gen::arbitrary<bool>()) {  // else it is hardly ever true
-      for (std::size_t j = 0; j < n; ++j)
-        row.data()[j] = where[j] != 0 || j % 3 == 0 ? TestFixture::kMost : TypeParam{1};
-      if (*rc::gen::arbitrary<bool>()) row.data()[*rc::gen::inRange<std::size_t>(0, n)] = 3;
-    }
-    bool top = true;
-    for (std::size_t j = 0; j < n; ++j) top = top && (where[j] == 0 || row[j] == TestFixture::kMost);
-    RC_ASSERT(kernels.is_top(row.data(), where.data(), n) == top);
-
     Row<TypeParam> bound = row;
     for (std::size_t j = 0; j < n; ++j) {
       bound.data()[j] = *rc::gen::arbitrary<bool>() || row[j] == TestFixture::kMost

@@ -73,7 +73,7 @@ bool expect_same_with_tiles(const FastAnalysis& fast, const ActionGrouping& agen
     if (!tiles) continue;
     const Tiles::Numbers classes = tiles->refined(tiles->tables(), number_rows(fast.invariance.invariant));
     are_any = are_any || *std::ranges::max_element(classes) + 1 < classes.size();
-    const ConventionFreedom found = find_convention(fast.controller, fast.hull, agents, team, &*tiles);
+    const ConventionFreedom found = find_convention(fast.controller, agents, team, &*tiles);
     for (std::size_t i = 0; i < agents.size(); ++i) {
       const ConventionFreedom::Agent &own = found.agents[i], &other = plain.agents[i];
       RC_ASSERT(own.mean == other.mean);
@@ -91,7 +91,7 @@ void expect_convention(const ProblemSpec& spec, const FastAnalysis& fast, const 
                        ThreadTeam& team) {
   const std::vector<InputClass> agents = agent_classes(spec, fast.abstraction.inputs);
   const ActionGrouping grouping(fast.engine, agents, team);
-  const ConventionFreedom found = find_convention(fast.controller, fast.hull, grouping, team);
+  const ConventionFreedom found = find_convention(fast.controller, grouping, team);
   const bool are_alike = expect_same_with_tiles(fast, grouping, found, team);
   RC_CLASSIFY(are_alike, "rows alike");
   std::vector<double> sums(agents.size(), 0);
@@ -100,7 +100,7 @@ void expect_convention(const ProblemSpec& spec, const FastAnalysis& fast, const 
   std::vector<std::vector<std::uint8_t>> packed;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     packed.emplace_back(plain.controller.size() * at((agents[i].actions() + 7) / 8));
-    fill_convention_bits(fast.controller, fast.hull, grouping, i, 0, packed[i].size(), packed[i].data());
+    fill_convention_bits(fast.controller, grouping, i, 0, packed[i].size(), packed[i].data());
   }
   for (std::size_t x = 0; x < plain.controller.size(); ++x) {
     const std::vector<bool>& admissible = plain.controller[x];

@@ -58,7 +58,7 @@ Found find(const FastAnalysis& fast, const Tiles* tiles, ThreadTeam& team) {
   found.copied += arrival.rows_copied;
   for (const PartitionActions& actions : fast.actions) {
     if (actions.grouping.size() < 2) continue;
-    const Projections projections(controller, actions.grouping, fast.hull, team, {.tiles = tiles});
+    const Projections projections(controller, actions.grouping, team, {.tiles = tiles});
     const DelayLayers layers = find_delay_layers(fast.engine, fast.hull, k.invariant, projections, {},
                                                  spec.coordination.max_delay, {}, team);
     found.levels.push_back(levels_of(layers.layers_of, k.invariant));

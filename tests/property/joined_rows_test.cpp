@@ -104,10 +104,8 @@ std::int64_t cell_of(const UniformGrid& from, std::int64_t cell, const UniformGr
 template <class Level>
 void expect_same_layers(const FastAnalysis& joined, std::size_t p, ThreadTeam& team) {
   LevelRows<Level> levels = joined.engine.make_levels<Level>(joined.invariance.invariant, team);
-  IndependentActions<Level> op(joined.actions[p].projections, joined.hull, joined.invariance.invariant,
-                               team.size());
-  run_wave(levels, joined.engine, joined.hull, static_cast<Level>(LevelRows<Level>::kTop - 1), {}, op, {},
-           team);
+  IndependentActions<Level> op(joined.actions[p].projections, joined.invariance.invariant, team.size());
+  run_wave(levels, joined.engine, joined.hull, static_cast<Level>(LevelRows<Level>::kTop - 1), op, {}, team);
   const LevelMap map(std::move(levels));
   for (std::int64_t x = 0; x < joined.abstraction.grid.cells(); ++x) {
     if (joined.safe.test(x)) RC_ASSERT(map.at(x) == joined.layers[p].layers_of.at(x));

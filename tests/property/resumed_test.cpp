@@ -130,7 +130,7 @@ TEST(Resumed, BlindLayersAreTheSameFromAnyStep) {
       if (partition.classes.size() == 1) continue;
       const ActionGrouping grouping(fast.engine, input_classes(spec, fast.abstraction.inputs, partition),
                                     team);
-      const Projections projections(fast.controller, grouping, fast.hull, team, {}, true);
+      const Projections projections(fast.controller, grouping, team, {}, true);
       ClassFibres fibres;
       for (const auto& agents : partition.classes)
         fibres.emplace_back(std::in_place, fast.engine.grid(), seen_states(spec, agents));

@@ -47,8 +47,7 @@ LevelMap run(const BlindProblem& problem, LevelMap& start, const WaveWatch& watc
              WaveCounts& counts) {
   const SilentSources& sources = problem.sources;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
-    return std::make_unique<IndependentActions<Level>>(sources.projections, problem.hull, sources.invariant,
-                                                       team.size());
+    return std::make_unique<IndependentActions<Level>>(sources.projections, sources.invariant, team.size());
   };
   const LevelProblem levels{.spared = problem.over,
                             .equal = sources.projections.equal_work(),
@@ -81,7 +80,7 @@ LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, 
   return levels.visit([&]<class Level>(const LevelRows<Level>& layers) {
     constexpr Level kTop = LevelRows<Level>::kTop;
     auto delays = engine.make_levels<Level>(engine.posts());
-    IndependentActions<Level> actions(problem.sources.projections, problem.hull, invariant, team.size());
+    IndependentActions<Level> actions(problem.sources.projections, invariant, team.size());
     std::deque<PostReader<Level>> readers;
     for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, layers);
     const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);

@@ -19,7 +19,7 @@ class ClassRows {
   void enter(const RowPlace& place) {
     REQUIRES(any_set(sources_.invariant.row(place.row)));
     row_ = place.row;
-    is_full_ = sources_.projections.full_rows()[static_cast<std::size_t>(row_)] != 0;
+    is_full_ = sources_.projections.is_full(row_);
     if (!is_full_) sources_.projections.grouping().group(place, groups_);
   }
   /// All cells of K in the row have all actions.

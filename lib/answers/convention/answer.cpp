@@ -65,7 +65,7 @@ ConventionFreedom find_parts(const AnalysisContext& context, const ConventionAns
     // Not with a goal: then posts must stay in more cells than those of the part, or come nearer.
     if (convention.agents.size() == 1) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
     ConventionFreedom own =
-        find_convention(part.controller, *part.hull, convention.agents[k], team, tiles ? &*tiles : nullptr);
+        find_convention(part.controller, convention.agents[k], team, tiles ? &*tiles : nullptr);
     const std::int64_t count = context.count(invariant);
     if (k == 0) {
       result = std::move(own);

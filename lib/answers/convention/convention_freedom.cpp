@@ -45,16 +45,6 @@ class Measure {
   /// @returns the sum over the row, from the first cell on
   double measure(const ConventionRow& row, std::size_t agent, ConstRow invariant, std::int64_t rows,
                  float* freedom, Count& count) {
-    if (row.is_free) {
-      std::int64_t cells = 0;
-      for_each_bit(invariant, [&](std::int64_t x) {
-        freedom[x] = 1;
-        ++cells;
-      });
-      count.full += rows * cells;
-      count.histogram.back() += rows * cells;
-      return static_cast<double>(cells);
-    }
     const ActionGroups& groups = *row.groups.classes[agent];
     count_actions(groups, row.kept[agent], invariant.size(), kept_);
     count_actions(groups, row.projection[agent], invariant.size(), all_);
@@ -157,8 +147,8 @@ void copy_to_like_rows(const LikeRows& like, std::int64_t begin, std::int64_t le
 
 }  // namespace
 
-ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
-                                  const ActionGrouping& agents, ThreadTeam& team, const Tiles* tiles) {
+ConventionFreedom find_convention(const Controller& controller, const ActionGrouping& agents,
+                                  ThreadTeam& team, const Tiles* tiles) {
   REQUIRES(tiles == nullptr || controller.approaches || &controller.target() == controller.invariant);
   const RowEngine& engine = *controller.engine;
   const RowShare::Range own = own_rows(engine.share(), engine.rows());
@@ -177,7 +167,7 @@ ConventionFreedom find_convention(const Controller& controller, const RowHull& h
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<ConventionRows<Level>> finders;
-    for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, hull, agents, levels);
+    for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, agents, levels);
     for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       ConventionRows<Level>& finder = finders[static_cast<std::size_t>(worker)];
       ConventionRow row;
@@ -215,10 +205,7 @@ void write_row(ConventionRows<Level>& finder, const Controller& controller, cons
   finder.find(place, row);
   const ActionGroups& groups = *row.groups.classes[agent];
   for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
-    const ConstRow kept =
-        row.is_free
-            ? invariant
-            : ConstRow(row.kept[agent].data() + groups.group_of[a] * invariant.size(), invariant.size());
+    const ConstRow kept(row.kept[agent].data() + groups.group_of[a] * invariant.size(), invariant.size());
     for_each_bit(kept, [&](std::int64_t x) {
       std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
       byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
@@ -228,13 +215,13 @@ void write_row(ConventionRows<Level>& finder, const Controller& controller, cons
 
 }  // namespace
 
-void fill_convention_bits(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
-                          std::size_t agent, std::uint64_t begin, std::uint64_t count, void* out) {
+void fill_convention_bits(const Controller& controller, const ActionGrouping& agents, std::size_t agent,
+                          std::uint64_t begin, std::uint64_t count, void* out) {
   const std::int64_t bytes = agents[agent].bytes();
   const auto row_bytes = static_cast<std::uint64_t>(controller.engine->row_length() * bytes);
   auto* target = static_cast<std::uint8_t*>(out);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
-    ConventionRows<Level> finder(controller, hull, agents, levels);
+    ConventionRows<Level> finder(controller, agents, levels);
     std::vector<std::uint8_t> cells(row_bytes);
     // A stretch may begin and end inside a row.
     while (count > 0) {

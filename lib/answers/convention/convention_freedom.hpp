@@ -8,7 +8,6 @@
 #include "answers/invariance/controller.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/action_groups.hpp"
-#include "engine/row_hull.hpp"
 #include "engine/tiles.hpp"
 
 namespace coordreq {
@@ -30,13 +29,12 @@ struct ConventionFreedom {
 /// @param tiles in which equal work is found; null: it is not looked for. @pre null unless posts must stay in
 ///   controller.invariant itself Cost: for each row of cells the choices of one group of actions an agent,
 ///   times agents^2.
-[[nodiscard]] ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
-                                                const ActionGrouping& agents, ThreadTeam& team,
-                                                const Tiles* tiles = nullptr);
+[[nodiscard]] ConventionFreedom find_convention(const Controller& controller, const ActionGrouping& agents,
+                                                ThreadTeam& team, const Tiles* tiles = nullptr);
 
 /// P_i(x) of agent `agent`, packed as action_bits(): fills elements [begin, begin + count) of uint8 [cells,
 /// ceil(m / 8)] in the order of the engine's grid.
-void fill_convention_bits(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
-                          std::size_t agent, std::uint64_t begin, std::uint64_t count, void* out);
+void fill_convention_bits(const Controller& controller, const ActionGrouping& agents, std::size_t agent,
+                          std::uint64_t begin, std::uint64_t count, void* out);
 
 }  // namespace coordreq

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "answers/invariance/controller_row.hpp"
-#include "answers/layers/free_rows.hpp"
 #include "base/requires.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/post_reader.hpp"
@@ -17,7 +16,6 @@ namespace coordreq {
 /// group are in the same pairs, so that a set holds all of a group or none.
 struct ConventionRow {
   RowGroups groups;
-  bool is_free = false;  ///< every cell of K keeps all actions; the rows below are not filled
   /// [agent], then [group * words + word]: the cells with the group in P_i(x), and those with the group in
   /// the projection of C(x) on the agent.
   std::vector<std::vector<Word>> kept;
@@ -30,14 +28,12 @@ class ConventionRows {
  public:
   /// @param agents the actions of each agent as a class of its own, in the order of the spec
   /// @pre unchecked: all outlive this object; `levels` are those of controller.levels.
-  ConventionRows(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
-                 const LevelRows<Level>& levels)
+  ConventionRows(const Controller& controller, const ActionGrouping& agents, const LevelRows<Level>& levels)
       : controller_(controller),
         levels_(levels),
         agents_(agents),
         words_(controller.engine->row_words()),
-        posts_(*controller.engine, levels),
-        free_(controller, hull, posts_) {
+        posts_(*controller.engine, levels) {
     for (std::size_t i = 0; i < agents.size(); ++i) parts_.push_back(agents[i].parts());
   }
 
@@ -48,8 +44,6 @@ class ConventionRows {
   void find(const RowPlace& place, ConventionRow& row) {
     REQUIRES(any_set(controller_.invariant->row(place.row)));
     agents_.group(place, row.groups);
-    row.is_free = free_.is_free(place);
-    if (row.is_free) return;
     find_controller(place, row);
     find_seeds(controller_.invariant->row(place.row), row);
     for (std::size_t i = 0; i < agents_.size(); ++i)
@@ -132,7 +126,6 @@ class ConventionRows {
   const ActionGrouping& agents_;
   std::size_t words_;
   PostReader<Level> posts_;
-  FreeRows<Level> free_;
   std::vector<std::vector<std::int64_t>> parts_;  ///< [agent][action]: its part of a joint input's number
   TupleWalk::Candidates candidates_;
   TupleWalk tuple_;

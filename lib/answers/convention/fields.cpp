@@ -15,7 +15,7 @@ void fill_bits_of_parts(const ConventionAnswer& convention, std::size_t agent, s
   std::vector<std::uint8_t> bits(count);
   for (std::size_t k = 0; k < convention.agents.size(); ++k) {
     const PartialController& part = convention.controller->parts[k];
-    fill_convention_bits(part.controller, *part.hull, convention.agents[k], agent, begin, count, bits.data());
+    fill_convention_bits(part.controller, convention.agents[k], agent, begin, count, bits.data());
     for (std::uint64_t i = 0; i < count; ++i)
       out[i] = static_cast<std::uint8_t>(k == 0 ? bits[i] : out[i] | bits[i]);
   }

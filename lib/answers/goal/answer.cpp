@@ -61,7 +61,7 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
     const PartitionSpec& partition = spec.coordination.partitions[p];
     const ActionGrouping grouping(engine, input_classes(spec, answers.context.abstraction->inputs, partition),
                                   work.team);
-    const Projections projections(goal.progress, grouping, goal.engine->hull(), work.team);
+    const Projections projections(goal.progress, grouping, work.team);
     work.enter_part("");
     DelayLayers found = find_approach_layers(sets, projections, layers, max_delay, watch, work.team);
     own.counts = found.counts;

@@ -17,7 +17,7 @@ CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, 
   const RowEngine& engine = sets.progress->engine();
   CellSet result(engine.rows(), engine.row_length());
   sets.nearness->visit([&]<class Level>(const LevelRows<Level>& levels) {
-    IndependentActions<Level> actions(projections, sets.progress->hull(), *sets.away, team.size());
+    IndependentActions<Level> actions(projections, *sets.away, team.size());
     std::deque<PostReader<Level>> readers;
     for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
     const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
@@ -46,7 +46,7 @@ class ApproachActions final : public RowOperator<Level> {
  public:
   ApproachActions(const ApproachSets& sets, const Projections& projections, const CellSet& nearing,
                   int workers)
-      : actions_(projections, sets.progress->hull(), *sets.away, workers),
+      : actions_(projections, *sets.away, workers),
         nearing_(nearing),
         lanes_(static_cast<std::size_t>(workers)) {}
 

@@ -43,9 +43,9 @@ LevelMap find_nearness(const RowEngine& engine, const RowHull& hull, const CellS
   const int workers = team.size();
   const LevelProblem problem{
       .equal = {tiles, tiles == nullptr ? nullptr : &tiles->tables()},
-      .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, hull, synthesis, true, workers); },
-      .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, hull, synthesis, true, workers); },
-      .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, hull, synthesis, true, workers); }};
+      .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, synthesis, true, workers); },
+      .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, synthesis, true, workers); },
+      .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, synthesis, true, workers); }};
   LevelMap start;
   WaveWatch own = watch;
   if (own.resumed == nullptr) {

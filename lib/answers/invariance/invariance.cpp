@@ -17,9 +17,9 @@ Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const C
       .start = &safe,
       .spared = over,
       .equal = equal.by_tables(),
-      .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, hull, synthesis, false, workers); },
-      .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, hull, synthesis, false, workers); },
-      .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, hull, synthesis, false, workers); }};
+      .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, synthesis, false, workers); },
+      .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, synthesis, false, workers); },
+      .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, synthesis, false, workers); }};
   WaveCounts counts;
   Invariance result{.collision_time = find_levels(engine, hull, problem, watch, team, counts)};
   result.counts = counts;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/action_groups.hpp"
-#include "engine/row_hull.hpp"
 #include "engine/tuple_walk.hpp"
 #include "engine/wave.hpp"
 #include "spec/spec_types.hpp"
@@ -18,7 +17,6 @@ struct JointWorkspace {
   RowGroups groups;
   TupleWalk::Candidates candidates;
   TupleWalk tuple;
-  RowBox box;
   std::vector<Level> lanes;
   std::vector<Level> everywhere;
   std::vector<Level> most;
@@ -30,18 +28,14 @@ struct JointWorkspace {
 template <class Level>
 class SomeAction final : public RowOperator<Level> {
  public:
-  SomeAction(const ActionGrouping& grouping, const RowHull& hull, bool rises, int workers)
-      : grouping_(grouping), hull_(hull), rises_(rises), work_(static_cast<std::size_t>(workers)) {}
+  SomeAction(const ActionGrouping& grouping, bool rises, int workers)
+      : grouping_(grouping), rises_(rises), work_(static_cast<std::size_t>(workers)) {}
 
   bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override {
     JointWorkspace<Level>& work = work_[static_cast<std::size_t>(worker)];
     const LevelKernels<Level>& kernels = posts.kernels();
     const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
-    if (!rises_ && grouping_.engine().allow() == nullptr) {
-      hull_.box(place, work.box);
-      if (work.box.covers && kernels.is_settled(posts.minimum(work.box), old, n)) return false;
-    }
     std::fill_n(next, posts.lanes(), Level{0});
     grouping_.group(place, work.groups);
     // An action is not needed if another one of its class has a smaller post and is allowed at the same
@@ -90,7 +84,6 @@ class SomeAction final : public RowOperator<Level> {
   }
 
   const ActionGrouping& grouping_;
-  const RowHull& hull_;
   bool rises_;
   std::vector<JointWorkspace<Level>> work_;
 };
@@ -137,10 +130,9 @@ class EveryAction final : public RowOperator<Level> {
 
 /// @param rises whether levels are nearness to a goal
 template <class Level>
-std::unique_ptr<RowOperator<Level>> make_joint_actions(const ActionGrouping& grouping, const RowHull& hull,
-                                                       Synthesis synthesis, bool rises, int workers) {
-  if (synthesis == Synthesis::maximal)
-    return std::make_unique<SomeAction<Level>>(grouping, hull, rises, workers);
+std::unique_ptr<RowOperator<Level>> make_joint_actions(const ActionGrouping& grouping, Synthesis synthesis,
+                                                       bool rises, int workers) {
+  if (synthesis == Synthesis::maximal) return std::make_unique<SomeAction<Level>>(grouping, rises, workers);
   return std::make_unique<EveryAction<Level>>(grouping, rises, workers);
 }
 

@@ -134,7 +134,7 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
       symmetry(
           answers.context.symmetry(input_classes(answers.context.spec, answers.context.abstraction->inputs,
                                                  answers.context.spec.coordination.partitions[p]))),
-      projections(answers.get<GoingOn>().controller, grouping, *answers.context.hull, team,
+      projections(answers.get<GoingOn>().controller, grouping, team,
                   answers.context.equal(symmetry ? &*symmetry : nullptr)) {}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {

@@ -10,9 +10,9 @@ namespace coordreq {
 namespace {
 
 template <class Level>
-std::unique_ptr<RowOperator<Level>> make_operator(const Projections& projections, const RowHull& hull,
-                                                  const CellSet& invariant, int workers) {
-  return std::make_unique<IndependentActions<Level>>(projections, hull, invariant, workers);
+std::unique_ptr<RowOperator<Level>> make_operator(const Projections& projections, const CellSet& invariant,
+                                                  int workers) {
+  return std::make_unique<IndependentActions<Level>>(projections, invariant, workers);
 }
 
 /// |Z_0|, |Z_1|, ...: a cell of level i is in the first i layers.
@@ -33,12 +33,11 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
       .start = &invariant,
       .spared = over,
       .bounds = coarser,
-      .settled = &projections.full_rows(),
       .equal = projections.equal_work(),
       .limit = max_delay.value_or(-1),
-      .make8 = [&] { return make_operator<std::uint8_t>(projections, hull, invariant, workers); },
-      .make16 = [&] { return make_operator<std::uint16_t>(projections, hull, invariant, workers); },
-      .make32 = [&] { return make_operator<std::uint32_t>(projections, hull, invariant, workers); }};
+      .make8 = [&] { return make_operator<std::uint8_t>(projections, invariant, workers); },
+      .make16 = [&] { return make_operator<std::uint16_t>(projections, invariant, workers); },
+      .make32 = [&] { return make_operator<std::uint32_t>(projections, invariant, workers); }};
   WaveCounts counts;
   DelayLayers result{.layers_of = find_levels(engine, hull, problem, watch, team, counts)};
   result.counts = counts;

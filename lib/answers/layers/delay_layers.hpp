@@ -44,10 +44,7 @@ struct DelayLayers {
 /// An empty layer is a fixed point also where `max_delay` stops at it.
 ///
 /// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is a subset of this
-/// one's, so that the worst choice is no worse. The wave begins at the least of their levels. Rows of K where
-/// C(x) has every action are settled: there all partitions take the same minimum M(level)(x) over all
-/// actions, and M commutes with the minimum of the bounds L', M(min L') = min M(L') = min L'. Without bounds
-/// M is over the levels of K alone, and no action leads out of K.
+/// one's, so that the worst choice is no worse. The wave begins at the least of their levels.
 /// @param projections of C where the task goes on
 /// @param over G of a goal that ends it, which is in every layer; null: there is none
 /// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`

@@ -28,11 +28,10 @@ std::size_t choose_fastest(const ActionGrouping& grouping) {
 }  // namespace
 
 template <class Level>
-IndependentActions<Level>::IndependentActions(const Projections& projections, const RowHull& hull,
-                                              const CellSet& invariant, int workers)
+IndependentActions<Level>::IndependentActions(const Projections& projections, const CellSet& invariant,
+                                              int workers)
     : projections_(projections),
       grouping_(projections.grouping()),
-      hull_(hull),
       boxes_(grouping_),
       invariant_(invariant),
       fastest_(choose_fastest(grouping_)),
@@ -42,11 +41,6 @@ template <class Level>
 bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old,
                                             Level* next, int worker) {
   Workspace& work = work_[static_cast<std::size_t>(worker)];
-  const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
-  hull_.box(place, work.box);
-  const bool is_by_posts = projections_.forbidden(place.row).empty();
-  if (is_by_posts && work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n))
-    return false;
   // No level rises: posts that cannot lower a cell are not read.
   constexpr Level kTop = PostReader<Level>::kTop;
   std::transform(old, old + posts.lanes(), next, [](Level level) {
@@ -89,7 +83,6 @@ void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader
                            work.row);
   work.is_moved = projections_.find_shift(place.row, work.shift);
   work.box.resize(engine.grid());
-  work.box.covers = true;  // each box is the post of a choice
   work.labels = nullptr;
   for (std::size_t p = 0; p < work.row.parts.size(); ++p) {
     if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)

@@ -16,8 +16,7 @@ template <class Level>
 class IndependentActions final : public RowOperator<Level> {
  public:
   /// @pre unchecked: all outlive this object.
-  IndependentActions(const Projections& projections, const RowHull& hull, const CellSet& invariant,
-                     int workers);
+  IndependentActions(const Projections& projections, const CellSet& invariant, int workers);
 
   bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override;
@@ -72,7 +71,6 @@ class IndependentActions final : public RowOperator<Level> {
 
   const Projections& projections_;
   const ActionGrouping& grouping_;
-  const RowHull& hull_;
   RowBoxes boxes_;
   const CellSet& invariant_;
   std::size_t fastest_;  ///< class

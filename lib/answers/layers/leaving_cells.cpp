@@ -158,7 +158,7 @@ std::int64_t count_leaving_cells(const Answers& answers, const Projections& proj
   take_out_leaving(answers, team, cells);
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
-    return std::make_unique<IndependentActions<Level>>(projections, *context.hull, invariant, team.size());
+    return std::make_unique<IndependentActions<Level>>(projections, invariant, team.size());
   };
   const LevelProblem problem{.spared = context.over_or_null(),
                              .equal = projections.equal_work(),

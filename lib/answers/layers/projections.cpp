@@ -6,7 +6,6 @@
 
 #include "answers/invariance/controller_row.hpp"
 #include "answers/layers/forbidden_choices.hpp"
-#include "answers/layers/free_rows.hpp"
 #include "answers/layers/pair_projection.hpp"
 #include "base/requires.hpp"
 #include "engine/level_map.hpp"
@@ -42,7 +41,7 @@ template <class Level>
 class Projections::Builder {
  public:
   Builder(const Controller& controller, const ActionGrouping& grouping, const ForbiddenChoices& choices,
-          const RowHull& hull, const LevelRows<Level>& levels, const SilentRules* rules, bool keeps_masks)
+          const LevelRows<Level>& levels, const SilentRules* rules, bool keeps_masks)
       : controller_(controller),
         rules_(rules),
         levels_(levels),
@@ -53,7 +52,6 @@ class Projections::Builder {
         pair_(controller, boxes_, grouping.size()),
         independent_(controller.engine->row_words()),
         posts_(*controller.engine, levels),
-        free_(controller, hull, posts_),
         members_(controller.engine->row_words()),
         forbidden_(controller.engine->row_words()),
         masks_(grouping.size()) {}
@@ -64,27 +62,23 @@ class Projections::Builder {
   Found project(const RowPlace& place) {
     if (rules_ != nullptr) return project_by_rules(place);
     const ConstRow invariant = controller_.invariant->row(place.row);
-    const bool is_full = free_.is_free(place);
-    Found found{.row = place.row, .is_full = is_full};
-    if (is_full && !boxes_.is_product()) return found;
     grouping_.group(place, groups_);
     const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
-    if (is_full && !is_product) return found;
     is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
                  controller_.synthesis == Synthesis::maximal && !controller_.approaches;
     box_.resize(controller_.engine->grid());
-    if (!is_full && is_simple_ && pair_.applies()) {
+    if (is_simple_ && pair_.applies()) {
       pair_.find_masks(place, groups_, masks_);
     } else {
-      for (std::size_t c = 0; c < masks_.size(); ++c)
-        is_full ? fill_masks(c, invariant) : find_masks(place, c);
+      for (std::size_t c = 0; c < masks_.size(); ++c) find_masks(place, c);
     }
+    Found found{.row = place.row, .is_full = is_full(invariant)};
     if (is_product) {
       packed_.clear();
       independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), packed_);
       found.packed = packed_;
     }
-    if (!is_product || (keeps_masks_ && !is_full)) {
+    if (!found.is_full && (!is_product || keeps_masks_)) {
       join_masks();
       found.masks = joined_masks_;
     }
@@ -93,6 +87,17 @@ class Projections::Builder {
   }
 
  private:
+  /// Whether the masks of all groups are all cells of K in the row, and nothing is forbidden.
+  [[nodiscard]] bool is_full(ConstRow invariant) const {
+    if (controller_.engine->allow() != nullptr) return false;
+    return std::ranges::all_of(masks_, [&](const std::vector<Word>& masks) {
+      for (std::size_t k = 0; k < masks.size(); ++k) {
+        if (masks[k] != invariant[k % invariant.size()]) return false;
+      }
+      return true;
+    });
+  }
+
   Found project_by_rules(const RowPlace& place) {
     Found found{.row = place.row};
     grouping_.group(place, groups_);
@@ -279,7 +284,6 @@ class Projections::Builder {
   bool is_simple_ = false;  ///< all joint posts of the row are boxes, and all joint inputs are allowed
   IndependentPosts independent_;
   PostReader<Level> posts_;
-  FreeRows<Level> free_;
   RowGroups groups_;
   TupleWalk::Candidates candidates_;
   TupleWalk tuple_;
@@ -294,22 +298,22 @@ class Projections::Builder {
   std::vector<Word> left_;
 };
 
-Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-                         ThreadTeam& team, const EqualWork& equal, bool keeps_masks)
+Projections::Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team,
+                         const EqualWork& equal, bool keeps_masks)
     : grouping_(&grouping), words_(controller.engine->row_words()), equal_(equal) {
   number_rows_of(*controller.invariant, equal.by_tables(), controller.engine->share());
-  find_all(controller, hull, team, nullptr, keeps_masks);
+  find_all(controller, team, nullptr, keeps_masks);
 }
 
-Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-                         ThreadTeam& team, const SilentRules& rules)
+Projections::Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team,
+                         const SilentRules& rules)
     : grouping_(&grouping), words_(controller.engine->row_words()) {
   number_rows_of(*rules.cells, {}, controller.engine->share());
-  find_all(controller, hull, team, &rules, false);
+  find_all(controller, team, &rules, false);
 }
 
-void Projections::find_all(const Controller& controller, const RowHull& hull, ThreadTeam& team,
-                           const SilentRules* rules, bool keeps_masks) {
+void Projections::find_all(const Controller& controller, ThreadTeam& team, const SilentRules* rules,
+                           bool keeps_masks) {
   equal_.numbers = &classes_;
   const RowEngine& engine = *controller.engine;
   stores_.resize(static_cast<std::size_t>(team.size()));
@@ -318,7 +322,7 @@ void Projections::find_all(const Controller& controller, const RowHull& hull, Th
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
     for (int w = 0; w < team.size(); ++w)
-      builders.emplace_back(controller, *grouping_, choices, hull, levels, rules, keeps_masks);
+      builders.emplace_back(controller, *grouping_, choices, levels, rules, keeps_masks);
     for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
@@ -335,10 +339,6 @@ void Projections::find_all(const Controller& controller, const RowHull& hull, Th
       }
     });
   });
-  is_full_.assign(number_.size(), 0);
-  const RowShare::Range own = own_rows(engine.share(), engine.rows());
-  for (auto r = static_cast<std::size_t>(own.begin); r < static_cast<std::size_t>(own.end); ++r)
-    is_full_[r] = number_[r] != kNothing && found_[number_[r] - 1].is_full ? 1 : 0;
 }
 
 std::span<const Word> Projections::Store::keep(std::span<const Word> list) {

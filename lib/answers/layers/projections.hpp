@@ -12,7 +12,6 @@
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/equal_work.hpp"
-#include "engine/row_hull.hpp"
 
 namespace coordreq {
 
@@ -24,14 +23,14 @@ class Projections {
   ///   them. Without `numbers` those of the tables are taken; where the controller is a part of C, numbers
   ///   have to tell rows apart in which K differs
   /// @param keeps_masks whether mask() is there also for rows in the form of a product
-  Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-              ThreadTeam& team, const EqualWork& equal = {}, bool keeps_masks = false);
+  Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team,
+              const EqualWork& equal = {}, bool keeps_masks = false);
   /// Projections by rules instead of C: for the cells in which rules are asked for, the actions that each
   /// class may take. forbidden() has the cells where a class has no action, or all classes together may take
   /// a forbidden joint input.
   /// @pre unchecked: the grouping tells actions apart by the rules, too.
-  Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-              ThreadTeam& team, const SilentRules& rules);
+  Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team,
+              const SilentRules& rules);
   Projections(Projections&&) = default;  // members of found_ point into stores_
   Projections& operator=(Projections&&) = default;
   Projections(const Projections&) = delete;
@@ -40,7 +39,7 @@ class Projections {
 
   [[nodiscard]] const ActionGrouping& grouping() const { return *grouping_; }
   enum class Form : std::uint8_t {
-    full,     ///< every action is in C(x) for all x of K in the row (or K has no cell there)
+    full,     ///< every action of each class is in its projection for all x of K in the row
     masks,    ///< a row of bits for each group of actions of each class, see mask()
     product,  ///< boxes of posts for parts of the row, see IndependentPosts
   };
@@ -50,11 +49,12 @@ class Projections {
     if (!found_[number - 1].packed.empty()) return Form::product;
     return found_[number - 1].masks.empty() ? Form::full : Form::masks;
   }
-  /// [row] not 0 where every action is in C(x) for all x of K in the row, and K has cells there: then IND_C
-  /// is the same for all partitions.
-  [[nodiscard]] const std::vector<std::uint8_t>& full_rows() const { return is_full_; }
+  /// Whether every action of each class is in its projection for all x of K in the row, whatever its form.
+  [[nodiscard]] bool is_full(std::int64_t row) const {
+    return number_[static_cast<std::size_t>(row)] == kNothing || of(row).is_full;
+  }
   /// {x in the row : group g of class c is in the projection of C(x)}; groups as ActionGrouping::group
-  /// numbers them. @pre form(row) is `masks`, or masks are kept and the row is not in full_rows()
+  /// numbers them. @pre form(row) is `masks`, or masks are kept and the row is not full
   [[nodiscard]] ConstRow mask(std::int64_t row, const RowGroups& groups, std::size_t c,
                               std::uint32_t g) const;
   /// For IndependentPosts::unpack(). The boxes are those of a row that is equal seen from itself: they have
@@ -82,8 +82,7 @@ class Projections {
   static constexpr std::uint32_t kNothing = 0;
   template <class Level>
   class Builder;
-  void find_all(const Controller& controller, const RowHull& hull, ThreadTeam& team, const SilentRules* rules,
-                bool keeps_masks);
+  void find_all(const Controller& controller, ThreadTeam& team, const SilentRules* rules, bool keeps_masks);
   /// Keeps lists of words one behind the other, at fixed addresses: an allocation for each row would take
   /// more memory than its words.
   class Store {
@@ -117,7 +116,6 @@ class Projections {
       number_;  ///< [row] 1 + its index in `found_`, or kNothing if K has no cell in the row
   std::vector<Found> found_;
   std::vector<Store> stores_;  ///< [worker] the words of `found_`
-  std::vector<std::uint8_t> is_full_;
 };
 
 }  // namespace coordreq

@@ -16,18 +16,14 @@ void keep_only(MutableRow row, ConstRow other) {
 
 }  // namespace
 
-CarefulActions::CarefulActions(const ActionGrouping& grouping, const RowHull& hull, int workers)
-    : grouping_(grouping), hull_(hull), work_(static_cast<std::size_t>(workers)) {}
+CarefulActions::CarefulActions(const ActionGrouping& grouping, int workers)
+    : grouping_(grouping), work_(static_cast<std::size_t>(workers)) {}
 
 bool CarefulActions::next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old,
                                  Level* next, int worker) {
   Workspace& work = work_[static_cast<std::size_t>(worker)];
   const RowEngine& engine = grouping_.engine();
   const auto n = static_cast<std::size_t>(engine.row_length());
-  if (engine.allow() == nullptr) {  // all joint inputs are then allowed, and in C_q
-    hull_.box(place, work.box);
-    if (work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n)) return false;
-  }
   work.wanted.resize(engine.row_words());
   posts.kernels().top_bits(old, work.wanted.data(), n);
   grouping_.group(place, work.groups);

@@ -16,8 +16,8 @@ namespace coordreq {
 class CarefulActions final : public RowOperator<std::uint8_t> {
  public:
   /// @param grouping by the classes that coordinate
-  /// @pre unchecked: both outlive this object.
-  CarefulActions(const ActionGrouping& grouping, const RowHull& hull, int workers);
+  /// @pre unchecked: it outlives this object.
+  CarefulActions(const ActionGrouping& grouping, int workers);
 
   /// @returns false if the level is kTop for all cells x with old[x] != 0
   bool next_levels(const RowPlace& place, PostReader<std::uint8_t>& posts, const std::uint8_t* old,
@@ -28,7 +28,6 @@ class CarefulActions final : public RowOperator<std::uint8_t> {
     RowGroups groups;
     TupleWalk::Candidates candidates;
     TupleWalk tuple;
-    RowBox box;
     std::vector<Word> wanted;                   ///< cells with old != 0
     std::vector<Word> good;                     ///< cells where a choice of groups is in C_q
     std::vector<Word> known;                    ///< `good` of the first choices, in the order of the walk
@@ -42,7 +41,6 @@ class CarefulActions final : public RowOperator<std::uint8_t> {
   static void find_good(PostReader<std::uint8_t>& posts, std::size_t length, Workspace& work);
 
   const ActionGrouping& grouping_;
-  const RowHull& hull_;
   std::vector<Workspace> work_;
 };
 

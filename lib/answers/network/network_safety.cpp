@@ -26,12 +26,12 @@ class Operators {
     for (const std::vector<InputClass>& classes : problem.partitions) {
       const ActionGrouping& grouping = groupings_.emplace_back(*controller.engine, classes, team);
       if (problem.resynthesise) {
-        operators_.push_back(std::make_unique<CarefulActions>(grouping, *problem.hull, team.size()));
+        operators_.push_back(std::make_unique<CarefulActions>(grouping, team.size()));
         continue;
       }
-      const Projections& projections = projections_.emplace_back(controller, grouping, *problem.hull, team);
-      operators_.push_back(std::make_unique<IndependentActions<Level>>(projections, *problem.hull,
-                                                                       *controller.invariant, team.size()));
+      const Projections& projections = projections_.emplace_back(controller, grouping, team);
+      operators_.push_back(
+          std::make_unique<IndependentActions<Level>>(projections, *controller.invariant, team.size()));
     }
   }
 

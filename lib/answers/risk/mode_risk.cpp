@@ -9,8 +9,8 @@ namespace {
 template <class Level>
 class WorstRisk final : public ModeRisk<Level> {
  public:
-  WorstRisk(const Projections& projections, const RowHull& hull, const CellSet& invariant, int workers)
-      : actions_(projections, hull, invariant, workers) {}
+  WorstRisk(const Projections& projections, const CellSet& invariant, int workers)
+      : actions_(projections, invariant, workers) {}
   void find(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker) override {
     actions_.find_minimum(place, posts, next, worker);
   }
@@ -24,8 +24,7 @@ class WorstRisk final : public ModeRisk<Level> {
 template <class Level>
 class LeastRisk final : public ModeRisk<Level> {
  public:
-  LeastRisk(const ActionGrouping& grouping, const RowHull& hull, int workers)
-      : actions_(grouping, hull, true, workers) {}
+  LeastRisk(const ActionGrouping& grouping, int workers) : actions_(grouping, true, workers) {}
   void find(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker) override {
     // The operator of levels that rise looks at all cells, for any old levels.
     static_cast<void>(actions_.next_levels(place, posts, next, next, worker));
@@ -37,10 +36,9 @@ class LeastRisk final : public ModeRisk<Level> {
 
 }  // namespace
 
-ModeChoices::ModeChoices(const Controller& controller, const RowHull& hull,
-                         const std::vector<std::vector<InputClass>>& partitions,
+ModeChoices::ModeChoices(const Controller& controller, const std::vector<std::vector<InputClass>>& partitions,
                          const std::vector<const Projections*>& silent, bool is_safest, ThreadTeam& team)
-    : controller_(controller), hull_(hull) {
+    : controller_(controller) {
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const std::vector<InputClass>& classes = partitions[p];
     Partition& own = partitions_.emplace_back();
@@ -50,7 +48,7 @@ ModeChoices::ModeChoices(const Controller& controller, const RowHull& hull,
     own.grouping = &groupings_.emplace_back(
         *controller.engine, own.is_safest ? single_classes(controller.engine->abstraction().inputs) : classes,
         team);
-    if (!own.is_safest) own.projections = &projections_.emplace_back(controller, *own.grouping, hull, team);
+    if (!own.is_safest) own.projections = &projections_.emplace_back(controller, *own.grouping, team);
   }
 }
 
@@ -59,10 +57,9 @@ std::vector<std::unique_ptr<ModeRisk<Level>>> ModeChoices::operators(int workers
   std::vector<std::unique_ptr<ModeRisk<Level>>> result;
   for (const Partition& own : partitions_) {
     if (own.is_safest) {
-      result.push_back(std::make_unique<LeastRisk<Level>>(*own.grouping, hull_, workers));
+      result.push_back(std::make_unique<LeastRisk<Level>>(*own.grouping, workers));
     } else {
-      result.push_back(
-          std::make_unique<WorstRisk<Level>>(*own.projections, hull_, *controller_.invariant, workers));
+      result.push_back(std::make_unique<WorstRisk<Level>>(*own.projections, *controller_.invariant, workers));
     }
   }
   return result;

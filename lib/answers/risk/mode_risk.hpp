@@ -28,9 +28,8 @@ class ModeChoices {
  public:
   /// @param partitions the classes of each
   /// @param silent [partition] A(x) in K; null: its agents choose from IND_C(x)
-  /// @pre unchecked: the controller, the hull and A(x) outlive this object.
-  ModeChoices(const Controller& controller, const RowHull& hull,
-              const std::vector<std::vector<InputClass>>& partitions,
+  /// @pre unchecked: the controller and A(x) outlive this object.
+  ModeChoices(const Controller& controller, const std::vector<std::vector<InputClass>>& partitions,
               const std::vector<const Projections*>& silent, bool is_safest, ThreadTeam& team);
 
   /// One operator a partition. @pre unchecked: this object outlives them.
@@ -45,7 +44,6 @@ class ModeChoices {
   };
 
   const Controller& controller_;
-  const RowHull& hull_;
   std::deque<ActionGrouping> groupings_;
   std::deque<Projections> projections_;
   std::vector<Partition> partitions_;
