@@ -87,10 +87,10 @@ std::string connection_text(const Json& partition, const Json& summary) {
 }
 
 /// From where agents that act alone by a policy gain by it.
-void add_layers(const AnswerPolicy& policy, const Json& own, Facts& facts) {
-  const Json& layers = own["layers"];
+void add_layers(const AnswerPolicy& policy, const Json& entry, Facts& facts) {
+  const Json& layers = entry["layers"];
   facts.emplace_back("  " + policy.words, shortened(layers.get<std::vector<std::int64_t>>()));
-  const std::string for_ever = own["truncated"] ? "an unknown number" : cells(own["fixed_point"]);
+  const std::string for_ever = entry["truncated"] ? "an unknown number" : cells(entry["fixed_point"]);
   facts.emplace_back("  " + policy.gain, fmt::format("for a step from {}, for ever from {}",
                                                      cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }
@@ -118,8 +118,8 @@ void add_shares(const Json& partition, const Json& summary, Facts& facts) {
 /// " All best states lie at the edge of the grid, ...", or nothing.
 std::string edge_hint(const Json& partition) {
   std::vector<std::string> sides;
-  for (const Json& own : partition["best_at_edges"])
-    sides.push_back(fmt::format("{} = {:.6g}", text_of(own["state"]), own["value"].get<double>()));
+  for (const Json& entry : partition["best_at_edges"])
+    sides.push_back(fmt::format("{} = {:.6g}", text_of(entry["state"]), entry["value"].get<double>()));
   if (sides.empty()) return "";
   return fmt::format(
       "\n  All best states lie at the edge of the grid ({}): a larger domain may tolerate more.",
@@ -159,14 +159,14 @@ std::string partition_text(const Json& partition, const Json& summary,
 std::string partitions_table(const Json& summary) {
   const std::int64_t delay = number_of(summary["connection_delay"]);
   std::vector<Column> columns = {
-      {"partition", Align::left, [](const Json& own) { return text_of(own["name"]); }},
+      {"partition", Align::left, [](const Json& entry) { return text_of(entry["name"]); }},
       {"F", Align::right, fixed_point_text},
       {"unbounded", Align::right, unbounded_cells},
       {"longest finite delay", Align::left,
-       [&summary](const Json& own) { return longest_delay_text(own, summary); }}};
+       [&summary](const Json& entry) { return longest_delay_text(entry, summary); }}};
   if (delay > 0) {
     columns.push_back({"never without connection", Align::right,
-                       [](const Json& own) { return cells(own["never_without_connection"]); }});
+                       [](const Json& entry) { return cells(entry["never_without_connection"]); }});
   }
   const std::string connection =
       delay > 0 ? fmt::format("A connection takes {} to establish.\n", duration(delay, summary)) : "";

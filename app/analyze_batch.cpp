@@ -29,11 +29,11 @@ class Results {
   Results(const std::vector<PlannedRun>& plan, const AnalyzeOptions& asked)
       : table_(plan, asked), is_text_(!asked.json && !asked.quiet), warnings_(asked) {
     if (is_text_) write_output(table_.heading());
-    for (const PlannedRun& own : plan) {
+    for (const PlannedRun& planned : plan) {
       FinishedRun& run = runs_.emplace_back();
-      run.failure = own.failure;
-      run.plan = &own;
-      is_done_.push_back(!own.spec);
+      run.failure = planned.failure;
+      run.plan = &planned;
+      is_done_.push_back(!planned.spec);
     }
     tell();
   }

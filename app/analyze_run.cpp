@@ -61,12 +61,12 @@ void tell_of_hours(const Model& model, ThreadTeam& team) {
 }
 
 /// @throws UsageError if a file would take the place of another
-void check_files(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& own) {
+void check_files(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& options) {
   FilesInUse files;
-  add_read_files(own.specs.front(), &spec, files);
+  add_read_files(options.specs.front(), &spec, files);
   files.writes(output, "the results", "--output");
-  if (own.junit) files.writes(*own.junit, "the JUnit report", "--junit");
-  if (own.checkpoint) files.writes(own.checkpoint->file, "the checkpoint", "--checkpoint");
+  if (options.junit) files.writes(*options.junit, "the JUnit report", "--junit");
+  if (options.checkpoint) files.writes(options.checkpoint->file, "the checkpoint", "--checkpoint");
 }
 
 }  // namespace
@@ -110,19 +110,20 @@ void check_interrupted(const std::string& place) {
   }
 }
 
-ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& own) {
-  const std::string output = own.output.value_or(spec.name + ".h5");
-  if (own.is_first()) check_files(spec, output, own);
-  if (own.is_first() && own.junit) try_to_write(*own.junit);
-  const std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
-  if (!own.is_first()) return ExitCode::success;
+ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& options) {
+  const std::string output = options.output.value_or(spec.name + ".h5");
+  if (options.is_first()) check_files(spec, output, options);
+  if (options.is_first() && options.junit) try_to_write(*options.junit);
+  const std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, options, "");
+  if (!options.is_first()) return ExitCode::success;
   {
     const InterruptDelay delay;
-    if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = summary.get()}});
+    if (options.junit)
+      write_junit(*options.junit, {{.name = spec.name, .spec = &spec, .summary = summary.get()}});
     check_interrupted(output);
   }
-  PrintedWarnings(own).print((*summary)["warnings"]);
-  print_answer(own, *summary, [&spec](const Json& found) { return summary_text(found, spec); });
+  PrintedWarnings(options).print((*summary)["warnings"]);
+  print_answer(options, *summary, [&spec](const Json& found) { return summary_text(found, spec); });
   return verdict(*summary);
 }
 
@@ -134,7 +135,7 @@ void try_to_write(const std::string& path) {
 ExitCode verdict(const Json& summary) {
   const Json& all = summary["requirements"];
   const bool hold =
-      std::all_of(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
+      std::all_of(all.begin(), all.end(), [](const Json& entry) { return entry["holds"].get<bool>(); });
   return hold ? ExitCode::success : ExitCode::requirement_failed;
 }
 

@@ -21,7 +21,7 @@ namespace coordreq {
 
 /// One analysis as `analyze` does it: nothing takes the place of anything else, and what it finds is written
 /// and printed, by the first process.
-[[nodiscard]] ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& own);
+[[nodiscard]] ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& options);
 
 /// @throws Error if a signal waits. @param place what is complete nevertheless
 void check_interrupted(const std::string& place);

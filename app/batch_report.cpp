@@ -36,7 +36,7 @@ std::string requirements_met(const Json& summary) {
   const Json& all = summary["requirements"];
   if (all.empty()) return "-";
   const auto met =
-      std::count_if(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
+      std::count_if(all.begin(), all.end(), [](const Json& entry) { return entry["holds"].get<bool>(); });
   return fmt::format("{} of {}", met, all.size());
 }
 
@@ -56,7 +56,7 @@ std::vector<std::string> figures(const Json& summary, const RunFigures& more, co
                                      of_partitions(summary, fixed_point_text),
                                      of_partitions(summary, unbounded_text)};
   for (const RunFigure& figure : more) result.push_back(figure.is_of(spec) ? figure.text(summary) : "-");
-  result.push_back(of_partitions(summary, [&](const Json& own) { return longest(own, summary); }));
+  result.push_back(of_partitions(summary, [&](const Json& entry) { return longest(entry, summary); }));
   return result;
 }
 

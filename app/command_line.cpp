@@ -26,8 +26,8 @@ std::string examples_text(const std::array<const char*, 2>& examples) {
 }
 
 struct Command {
-  Command(CLI::App& own, const CommandInfo& info)
-      : app(own), name(info.name), options(own), run(info.declare(options)) {}
+  Command(CLI::App& command_app, const CommandInfo& info)
+      : app(command_app), name(info.name), options(command_app), run(info.declare(options)) {}
 
   CLI::App& app;
   std::string name;

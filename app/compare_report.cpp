@@ -44,21 +44,22 @@ Json change_json(const ValueChange& change, const Field& field, const Files& fil
   return json;
 }
 
-Json values_json(const ValueComparison& own, const Files& files) {
-  const Field& field = files.after.field("/" + own.name);
+Json values_json(const ValueComparison& comparison, const Files& files) {
+  const Field& field = files.after.field("/" + comparison.name);
   Json json;
-  if (own.entry) {
-    json["name"] = files.after.leading_names(field)[own.entry->after];
-    json["name_before"] = files.before.leading_names(field)[own.entry->before];
+  if (comparison.entry) {
+    json["name"] = files.after.leading_names(field)[comparison.entry->after];
+    json["name_before"] = files.before.leading_names(field)[comparison.entry->before];
   }
-  json["lost"] = own.lost;
-  json["left"] = own.left;
-  json["now_bounded"] = own.from_forever;
-  json["cut_off"] = own.cut_off;
-  json["tolerated"] = own.tolerated;
-  json["gained"] = own.gained;
+  json["lost"] = comparison.lost;
+  json["left"] = comparison.left;
+  json["now_bounded"] = comparison.from_forever;
+  json["cut_off"] = comparison.cut_off;
+  json["tolerated"] = comparison.tolerated;
+  json["gained"] = comparison.gained;
   json["worst"] = Json::array();
-  for (const ValueChange& change : own.worst) json["worst"].push_back(change_json(change, field, files));
+  for (const ValueChange& change : comparison.worst)
+    json["worst"].push_back(change_json(change, field, files));
   return json;
 }
 
@@ -96,9 +97,9 @@ std::string sets_table(const std::vector<Compared>& sets) {
   Table table({Align::left, Align::right, Align::right, Align::right, Align::right});
   table.add({"cells of the", "before", "after", "left", "joined"});
   for (const Compared& set : sets) {
-    const Json& own = set.found.front();
-    table.add({set.field.shown.compared, grouped(own["before"]), grouped(own["after"]), grouped(own["left"]),
-               grouped(own["joined"])});
+    const Json& entry = set.found.front();
+    table.add({set.field.shown.compared, grouped(entry["before"]), grouped(entry["after"]),
+               grouped(entry["left"]), grouped(entry["joined"])});
   }
   return table.text();
 }
@@ -109,17 +110,17 @@ std::string axis_of(const Field& field) {
 }
 
 /// "alone", or "alone (was: a|b)"; the words of a field without a leading axis.
-std::string name_of(const Json& own, const Field& field) {
-  if (!own.contains("name")) return field.shown.compared;
-  const Json& old = own["name_before"];
-  return line_of(own["name"]) + (own["name"] == old ? "" : " (was: " + line_of(old) + ")");
+std::string name_of(const Json& entry, const Field& field) {
+  if (!entry.contains("name")) return field.shown.compared;
+  const Json& old = entry["name_before"];
+  return line_of(entry["name"]) + (entry["name"] == old ? "" : " (was: " + line_of(old) + ")");
 }
 
 std::string values_table(const Compared& values, bool tolerant) {
   const Field& field = values.field;
-  const auto count = [](const char* key) { return [key](const Json& own) { return grouped(own[key]); }; };
+  const auto count = [](const char* key) { return [key](const Json& entry) { return grouped(entry[key]); }; };
   std::vector<Column> columns = {{values.found.front().contains("name") ? axis_of(field) : "", Align::left,
-                                  [&field](const Json& own) { return name_of(own, field); }},
+                                  [&field](const Json& entry) { return name_of(entry, field); }},
                                  {"lost " + field.shown.compared, Align::right, count("lost")},
                                  {"left the set", Align::right, count("left")},
                                  {"now bounded", Align::right, count("now_bounded")},
@@ -153,8 +154,8 @@ std::string value_text(const Json& value, const Json& status, const Json& partit
 }
 
 /// The cells that have lost most; empty if none has lost anything.
-std::string worst_text(const Json& own, const Field& field, const Files& files) {
-  if (own["worst"].empty()) return "";
+std::string worst_text(const Json& entry, const Field& field, const Files& files) {
+  if (entry["worst"].empty()) return "";
   const std::vector<StateSpec>& states = files.before.spec().states;
   std::vector<Column> columns = {
       {"  cell", Align::right, [](const Json& change) { return "  " + grouped(change["cell"]); }}};
@@ -163,21 +164,21 @@ std::string worst_text(const Json& own, const Field& field, const Files& files) 
                          return fmt::format("{:.6g}", change["state"][state.name].get<double>());
                        }});
   }
-  const bool is_entry = own.contains("name");
+  const bool is_entry = entry.contains("name");
   const auto value = [&field](const std::string& when, const Json& partition, const ResultsReader& file) {
     return [&field, &file, when, partition](const Json& change) {
       return value_text(change[when], change[when + "_status"], partition, field, file);
     };
   };
   columns.push_back(
-      {"before", Align::left, value("before", is_entry ? own["name_before"] : Json(), files.before)});
-  columns.push_back({"after", Align::left, value("after", is_entry ? own["name"] : Json(), files.after)});
-  const auto named = static_cast<std::int64_t>(own["worst"].size());
+      {"before", Align::left, value("before", is_entry ? entry["name_before"] : Json(), files.before)});
+  columns.push_back({"after", Align::left, value("after", is_entry ? entry["name"] : Json(), files.after)});
+  const auto named = static_cast<std::int64_t>(entry["worst"].size());
   const std::string which =
-      named < number_of(own["lost"]) ? fmt::format("the worst {} of ", grouped(named)) : "";
+      named < number_of(entry["lost"]) ? fmt::format("the worst {} of ", grouped(named)) : "";
   return fmt::format("\n{}{}: {}{} that lost {}\n{}", is_entry ? axis_of(field) + " " : "",
-                     name_of(own, field), which, cells(own["lost"]), field.shown.compared,
-                     table_text(own["worst"], columns));
+                     name_of(entry, field), which, cells(entry["lost"]), field.shown.compared,
+                     table_text(entry["worst"], columns));
 }
 
 /// Where analyses stopped at max_delay, what they found is less than the whole truth.
@@ -213,8 +214,8 @@ std::string verdict_text(const Json& comparison, const std::vector<Compared>& va
                        comparison["tolerance"] > 0 ? "more delay than is tolerated" : "delay");
   }
   for (const Compared& one : values) {
-    for (const Json& own : one.found) {
-      if (own["lost"] > 0) return fmt::format("\nWorse: cells have lost {}.\n", one.field.shown.compared);
+    for (const Json& entry : one.found) {
+      if (entry["lost"] > 0) return fmt::format("\nWorse: cells have lost {}.\n", one.field.shown.compared);
     }
   }
   return "\nWorse: a requirement no longer holds.\n";
@@ -229,12 +230,12 @@ Json comparison_json(const ResultsComparison& comparison, const ResultsReader& b
   json["cells"] = before.grid().cells();
   json["tolerance"] = options.tolerance;
   for (const SetComparison& set : comparison.sets) json[set.name] = set_json(set);
-  for (const ValueComparison& own : comparison.values) {
-    Json& place = json[key_of(own.name)];
-    if (own.entry) {
-      place.push_back(values_json(own, files));
+  for (const ValueComparison& values : comparison.values) {
+    Json& place = json[key_of(values.name)];
+    if (values.entry) {
+      place.push_back(values_json(values, files));
     } else {
-      place = values_json(own, files);
+      place = values_json(values, files);
     }
   }
   json["verdicts"] = Json::array();
@@ -253,8 +254,8 @@ std::string comparison_text(const Json& comparison, const ResultsReader& before,
                   cells(comparison["cells"]), sets_table(compared_fields(comparison, true, after)));
   for (const Compared& one : values) text += "\n" + values_table(one, comparison["tolerance"] > 0);
   for (const Compared& one : values) {
-    for (const Json& own : one.found)
-      text += worst_text(own, one.field, files) + cut_off_text(own["cut_off"]);
+    for (const Json& entry : one.found)
+      text += worst_text(entry, one.field, files) + cut_off_text(entry["cut_off"]);
   }
   return text + only_text(comparison) + verdict_text(comparison, values);
 }

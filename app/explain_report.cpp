@@ -100,12 +100,12 @@ std::string silence_text(const Json& silence, const ProblemSpec& spec) {
 void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
   const Json& silence = found["silence"];
   std::vector<std::string> parts;
-  for (const Json& own : silence["classes"]) {
-    const bool is_all = own["permitted"] == own["total"];
-    const std::string what = own["permitted"] == 0 ? "nothing"
-                             : is_all              ? "anything"
-                                                   : text_of(own["actions"]);
-    parts.push_back(fmt::format("{} {}", line_of(own["name"]), what));
+  for (const Json& entry : silence["classes"]) {
+    const bool is_all = entry["permitted"] == entry["total"];
+    const std::string what = entry["permitted"] == 0 ? "nothing"
+                             : is_all                ? "anything"
+                                                     : text_of(entry["actions"]);
+    parts.push_back(fmt::format("{} {}", line_of(entry["name"]), what));
   }
   text.push_back(fmt::format("While they are silent the agents may do here: {}.", listed_words(parts)));
   if (silence["way_out"].is_null()) return;
@@ -115,11 +115,11 @@ void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::st
 
 std::string classes_are(const Json& freedom) {
   std::vector<std::string> parts;
-  for (const Json& own : freedom["classes"]) {
-    const bool is_all = own["admissible"] == own["total"];
-    parts.push_back(fmt::format("{} {}{}", line_of(own["name"]),
-                                is_all ? "all " : grouped(own["admissible"]) + " of ",
-                                grouped(own["total"])));
+  for (const Json& entry : freedom["classes"]) {
+    const bool is_all = entry["admissible"] == entry["total"];
+    parts.push_back(fmt::format("{} {}{}", line_of(entry["name"]),
+                                is_all ? "all " : grouped(entry["admissible"]) + " of ",
+                                grouped(entry["total"])));
   }
   return listed_words(parts);
 }
@@ -154,13 +154,13 @@ void add_neighbour(const Json& found, const ProblemSpec& spec, std::vector<std::
 }
 
 void add_remedies(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
-  for (const Json& own : found["remedies"]) {
+  for (const Json& entry : found["remedies"]) {
     const std::string much =
-        own["delay_status"] == "unbounded"
+        entry["delay_status"] == "unbounded"
             ? "no silence would be too long"
-            : fmt::format("at least {} would be tolerated", steps_text(number_of(own["delay"]), spec));
-    text.push_back(fmt::format("If \"allow\" left {} only {} here, {}.", line_of(own["class"]),
-                               values_text(own["inputs"]), much));
+            : fmt::format("at least {} would be tolerated", steps_text(number_of(entry["delay"]), spec));
+    text.push_back(fmt::format("If \"allow\" left {} only {} here, {}.", line_of(entry["class"]),
+                               values_text(entry["inputs"]), much));
   }
   if (found["remedies"].empty())
     text.push_back("No class alone can lengthen this by keeping to one action here.");
@@ -233,15 +233,16 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
   const bool is_in_k = found.delay >= 0;
   json["freedom"] = is_in_k ? freedom_json(found, results.partitions()[partition]) : Json();
   json["remedies"] = Json::array();
-  for (const DelayExplanation::Remedy& own : found.remedies)
-    json["remedies"].push_back(remedy_json(own, partition, results));
-  for (const Explained& own : found.others) json[own.key] = *own.found;
+  for (const DelayExplanation::Remedy& remedy : found.remedies)
+    json["remedies"].push_back(remedy_json(remedy, partition, results));
+  for (const Explained& explained : found.others) json[explained.key] = *explained.found;
   if (found.silence) json["silence"] = silence_json(*found.silence, partition, results);
   json["freer_is_shorter"] = Json();
   if (const auto& other = found.freer_is_shorter) {
-    Json& own = json["freer_is_shorter"] = {{"state", centre_json(grid, other->cell)}, {"cell", other->cell}};
-    add_delay(own, other->delay, false);
-    own["alone"] = other->alone;
+    Json& entry =
+        json["freer_is_shorter"] = {{"state", centre_json(grid, other->cell)}, {"cell", other->cell}};
+    add_delay(entry, other->delay, false);
+    entry["alone"] = other->alone;
   }
   json["sentences"] = sentences_of(json, spec);
   if (found.silence && json["silence"]["silence_status"] != "not_safe") {
@@ -249,8 +250,8 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
     add_silence(json, spec, text);
     for (const std::string& sentence : text) json["sentences"].push_back(sentence);
   }
-  for (const Explained& own : found.others) {
-    for (const std::string& sentence : own.sentences) json["sentences"].push_back(sentence);
+  for (const Explained& explained : found.others) {
+    for (const std::string& sentence : explained.sentences) json["sentences"].push_back(sentence);
   }
   return json;
 }

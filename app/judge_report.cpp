@@ -71,15 +71,15 @@ std::string words_of_finding(const std::string& finding) {
   return finding == "breach" ? "countdown broken" : words_of(finding);
 }
 
-std::string finding_text(const std::string& finding, const Json& own, const Json& document) {
-  if (own["judged"] == 0) return "not judged";
+std::string finding_text(const std::string& finding, const Json& entry, const Json& document) {
+  if (entry["judged"] == 0) return "not judged";
   const std::string of =
-      count_of(number_of(own["judged"]), is_of_states(finding) || finding == "breach" ? "row" : "step");
-  if (own["count"] == 0) return "in none of " + of;
-  const Json& first = own["first"];
+      count_of(number_of(entry["judged"]), is_of_states(finding) || finding == "breach" ? "row" : "step");
+  if (entry["count"] == 0) return "in none of " + of;
+  const Json& first = entry["first"];
   std::string when = "row " + grouped(first["row"]);
   if (!first["t"].is_null()) when += fmt::format(" (t = {:.6g})", first["t"].get<double>());
-  return fmt::format("in {} of {}, first in {}: {}", grouped(own["count"]), of, when,
+  return fmt::format("in {} of {}, first in {}: {}", grouped(entry["count"]), of, when,
                      detail(finding, first, document));
 }
 
@@ -105,9 +105,9 @@ void JudgeSummary::add(const JudgedRow& row) {
   for (const LogFinding finding : kAllLogFindings) {
     const std::optional<bool> found = row.found(finding);
     if (!found) continue;
-    Tally& own = tallies_[static_cast<std::size_t>(finding)];
-    ++own.judged;
-    if (*found && own.count++ == 0) own.first = row;
+    Tally& tally = tallies_[static_cast<std::size_t>(finding)];
+    ++tally.judged;
+    if (*found && tally.count++ == 0) tally.first = row;
   }
 }
 
@@ -171,13 +171,13 @@ Json JudgeSummary::json() const {
                {"gaps", gaps_}};
   json["findings"] = Json::object();
   for (const LogFinding finding : kAllLogFindings) {
-    const Tally& own = tallies_[static_cast<std::size_t>(finding)];
-    Json& told = json["findings"][finding_name(finding)] = {{"judged", own.judged}, {"count", own.count}};
+    const Tally& tally = tallies_[static_cast<std::size_t>(finding)];
+    Json& told = json["findings"][finding_name(finding)] = {{"judged", tally.judged}, {"count", tally.count}};
     if (finding == LogFinding::reckless) {
       for (std::size_t c = 0; c < reckless_.size(); ++c)
         told["classes"][results_.partitions()[partition_].classes[c]] = reckless_[c];
     }
-    told["first"] = own.first ? first_json(*own.first, finding) : Json();
+    told["first"] = tally.first ? first_json(*tally.first, finding) : Json();
   }
   json["holds"] = holds();
   return json;

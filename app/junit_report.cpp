@@ -39,14 +39,14 @@ pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, con
   return test;
 }
 
-void add_requirement(pugi::xml_node suite, const std::string& class_name, const Json& own,
+void add_requirement(pugi::xml_node suite, const std::string& class_name, const Json& entry,
                      const ProblemSpec& spec) {
-  pugi::xml_node test = add_case(suite, class_name, printable(own["name"].get<std::string>()));
-  if (own["holds"]) return;
+  pugi::xml_node test = add_case(suite, class_name, printable(entry["name"].get<std::string>()));
+  if (entry["holds"]) return;
   pugi::xml_node failure = test.append_child("failure");
-  set(failure, "message", failure_line(own, spec));
-  set(failure, "type", own["kind"].get<std::string>());
-  const std::string text = claim_text(own, spec) + "\n" + failure_text(own, spec);
+  set(failure, "message", failure_line(entry, spec));
+  set(failure, "type", entry["kind"].get<std::string>());
+  const std::string text = claim_text(entry, spec) + "\n" + failure_text(entry, spec);
   failure.append_child(pugi::node_pcdata).set_value(xml_text(text).c_str());
 }
 
@@ -69,7 +69,7 @@ Totals totals_of(const JunitSuite& suite) {
   if (suite.summary == nullptr) return {.tests = 1, .errors = 1};
   const Json& all = (*suite.summary)["requirements"];
   Totals totals{.tests = all.size(), .seconds = seconds_of(*suite.summary)};
-  for (const Json& own : all) totals.failures += own["holds"] ? 0U : 1U;
+  for (const Json& entry : all) totals.failures += entry["holds"] ? 0U : 1U;
   return totals;
 }
 

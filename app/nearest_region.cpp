@@ -68,11 +68,11 @@ Json nearest_region(const Json& requirement, const ResultsReader& results) {
 Json with_nearest_regions(const Json& summary, const std::string& results) {
   Json all = summary;
   std::optional<ResultsReader> reader;
-  for (Json& own : all["requirements"]) {
-    if (own["holds"] || own["kind"] != "min_delay" || own["min_delay"].is_null()) continue;
-    if (own["counterexample"].is_null() || own["counterexample"]["state"].is_null()) continue;
+  for (Json& entry : all["requirements"]) {
+    if (entry["holds"] || entry["kind"] != "min_delay" || entry["min_delay"].is_null()) continue;
+    if (entry["counterexample"].is_null() || entry["counterexample"]["state"].is_null()) continue;
     if (!reader) reader.emplace(results);
-    own["nearest"] = nearest_region(own, *reader);
+    entry["nearest"] = nearest_region(entry, *reader);
   }
   return all;
 }

@@ -18,8 +18,8 @@ constexpr double kReadingBytes = 1024 * 1024;  // buffers and tables of the smal
 }  // namespace
 
 void Options::argument(std::string& target, const char* name, const char* description, const char* takes) {
-  Argument& own = arguments_.emplace_back(Argument{.name = name, .takes = takes, .one = &target});
-  command_.add_option(name, target, description)->required()->type_name(own.takes);
+  Argument& argument = arguments_.emplace_back(Argument{.name = name, .takes = takes, .one = &target});
+  command_.add_option(name, target, description)->required()->type_name(argument.takes);
 }
 
 void Options::optional_argument(std::string& target, const char* name, const char* description,

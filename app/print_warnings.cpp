@@ -11,9 +11,9 @@ namespace coordreq {
 
 void PrintedWarnings::print(const Json& warnings, const std::string& subject) {
   if (is_quiet_) return;
-  for (const Json& own : warnings) {
-    const std::string place = line_of(own["place"]);
-    const std::string line = line_of(own["message"]) + (place.empty() ? "" : " (" + place + ")");
+  for (const Json& entry : warnings) {
+    const std::string place = line_of(entry["place"]);
+    const std::string line = line_of(entry["message"]) + (place.empty() ? "" : " (" + place + ")");
     if (!lines_.insert(line).second) continue;
     const std::string start = subject.empty() ? "" : shortened(printable(subject), 200, 20) + ": ";
     write_diagnostics(fmt::format("coordreq: warning: {}{}\n", start, line));

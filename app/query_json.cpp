@@ -106,11 +106,11 @@ Json partition_json(const StateAnswer& answer, std::size_t p, const QueryForm& f
   Json json;
   json["name"] = form.results.partitions()[p].name;
   for (const AnswerPolicy& policy : form.policies) {
-    Json& own = policy.name.empty() ? json : json[policy.name];
-    add_steps(own, "delay", answer.value(policy.delay, p), policy.delay, p, form.results);
+    Json& entry = policy.name.empty() ? json : json[policy.name];
+    add_steps(entry, "delay", answer.value(policy.delay, p), policy.delay, p, form.results);
     if (!policy.trigger.empty())
-      add_steps(own, "countdown", answer.value(policy.trigger, p), policy.trigger, p, form.results);
-    own["classes"] = classes_json(answer.actions.at(policy.name)[p], p, form.results);
+      add_steps(entry, "countdown", answer.value(policy.trigger, p), policy.trigger, p, form.results);
+    entry["classes"] = classes_json(answer.actions.at(policy.name)[p], p, form.results);
   }
   for (const Field* const field : form.numbers) {
     if (QueryForm::is_of_partitions(*field)) add_number(json, *field, answer.value(field->path, p));

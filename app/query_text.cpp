@@ -123,13 +123,13 @@ class AnswerText {
   [[nodiscard]] std::string partition_text(const Json& partition) const {
     Facts facts;
     for (const AnswerPolicy& policy : form_.policies) {
-      const Json& own = policy.name.empty() ? partition : partition[policy.name];
+      const Json& entry = policy.name.empty() ? partition : partition[policy.name];
       for (const auto& [key, path] : {std::pair("delay", policy.delay), {"countdown", policy.trigger}}) {
         if (path.empty()) continue;
         const Field& field = form_.results.field(path);
-        facts.emplace_back("  " + field.shown.asked.words, value_text(field, own, key));
+        facts.emplace_back("  " + field.shown.asked.words, value_text(field, entry, key));
       }
-      add_classes(policy, own["classes"], facts);
+      add_classes(policy, entry["classes"], facts);
     }
     for (const Field* const field : form_.numbers) {
       if (QueryForm::is_of_partitions(*field))
@@ -141,20 +141,20 @@ class AnswerText {
 
   /// Adds the actions of the classes; none where a policy that does not hold everywhere leaves none.
   void add_classes(const AnswerPolicy& policy, const Json& classes, Facts& facts) const {
-    for (const Json& own : classes) {
-      if (policy.name.empty() || policy.is_by_agent || !own["actions"].empty())
-        facts.emplace_back("  " + policy.words + " of " + text_of(own["name"]), class_text(own));
+    for (const Json& entry : classes) {
+      if (policy.name.empty() || policy.is_by_agent || !entry["actions"].empty())
+        facts.emplace_back("  " + policy.words + " of " + text_of(entry["name"]), class_text(entry));
     }
   }
 
-  [[nodiscard]] std::string class_text(const Json& own) const {
-    const std::size_t count = own["actions"].size();
+  [[nodiscard]] std::string class_text(const Json& entry) const {
+    const std::size_t count = entry["actions"].size();
     if (count == 0) return "none";
-    if (own["total"] == count) return fmt::format("all {}", grouped(own["total"]));
-    const auto names = own["inputs"].get<std::vector<std::string>>();
+    if (entry["total"] == count) return fmt::format("all {}", grouped(entry["total"]));
+    const auto names = entry["inputs"].get<std::vector<std::string>>();
     const std::string name = names.size() == 1 ? names.front() : fmt::format("({})", fmt::join(names, ", "));
-    return fmt::format("{} of {}: {} = {}", grouped(std::uint64_t{count}), grouped(own["total"]), name,
-                       actions_text(names, own["actions"].get<std::vector<std::size_t>>()));
+    return fmt::format("{} of {}: {} = {}", grouped(std::uint64_t{count}), grouped(entry["total"]), name,
+                       actions_text(names, entry["actions"].get<std::vector<std::size_t>>()));
   }
 
   /// Runs of actions that follow one another as "-0.8 ... 1"; of several inputs the first few tuples.
@@ -201,28 +201,28 @@ class AnswerText {
     for (std::size_t i = 0; i < form_.others.size(); ++i) {
       const Field& field = *form_.others[i];
       const FieldAsked& asked = field.shown.asked;
-      const Json& own = asked.group.empty() ? answer_ : answer_[asked.group];
+      const Json& entry = asked.group.empty() ? answer_ : answer_[asked.group];
       const bool begins =
           i == 0 || asked.group.empty() || asked.group != form_.others[i - 1]->shown.asked.group;
       if (begins) {
-        const std::string first = asked.attribute.empty() ? "" : steps_text(own[asked.attribute]) + " ";
+        const std::string first = asked.attribute.empty() ? "" : steps_text(entry[asked.attribute]) + " ";
         if (i > 0) text += facts_text(std::exchange(facts, {}));
         text += "\n" + first + asked.heading + "\n";
       }
       if (begins) is_told = true;
-      if (is_told) facts.emplace_back("  " + asked.words, section_text(field, own, is_told));
+      if (is_told) facts.emplace_back("  " + asked.words, section_text(field, entry, is_told));
     }
     return facts.empty() ? text : text + facts_text(facts);
   }
 
   /// @param is_chosen set to false where a partition is to be chosen and none is
-  [[nodiscard]] std::string section_text(const Field& field, const Json& own, bool& is_chosen) const {
+  [[nodiscard]] std::string section_text(const Field& field, const Json& entry, bool& is_chosen) const {
     const FieldAsked& asked = field.shown.asked;
-    if (field.kind == FieldKind::probability) return probabilities_text(own[asked.name]);
+    if (field.kind == FieldKind::probability) return probabilities_text(entry[asked.name]);
     if (field.kind != FieldKind::choice)
-      return names_text(field, own[asked.name].get<std::vector<std::string>>());
-    is_chosen = own["status"] == asked.name;
-    return is_chosen ? text_of(own[asked.name]) : status_words(field, text_of(own["status"]));
+      return names_text(field, entry[asked.name].get<std::vector<std::string>>());
+    is_chosen = entry["status"] == asked.name;
+    return is_chosen ? text_of(entry[asked.name]) : status_words(field, text_of(entry["status"]));
   }
 
   /// "up 1.3e-07, down 0.002".

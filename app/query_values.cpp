@@ -23,8 +23,9 @@ std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::
 }
 
 std::int64_t integer_attribute(const Field& field, const std::string& name) {
-  const auto found = std::find_if(field.attributes.begin(), field.attributes.end(),
-                                  [&name](const FieldAttribute& own) { return own.name == name; });
+  const auto found =
+      std::find_if(field.attributes.begin(), field.attributes.end(),
+                   [&name](const FieldAttribute& attribute) { return attribute.name == name; });
   REQUIRES(found != field.attributes.end());
   return std::get<std::int64_t>(found->value);
 }

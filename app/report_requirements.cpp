@@ -20,23 +20,23 @@ std::string capital(std::string text) {
   return text;
 }
 
-std::string requirement_verdict(const Json& own) {
-  const auto cells = own["cells"].get<std::uint64_t>();
-  if (own["holds"]) return fmt::format("<span class=\"good\">met</span> by all {}", states_text(cells));
+std::string requirement_verdict(const Json& entry) {
+  const auto cells = entry["cells"].get<std::uint64_t>();
+  if (entry["holds"]) return fmt::format("<span class=\"good\">met</span> by all {}", states_text(cells));
   const char* const failed = "<span class=\"bad\">failed</span>";
-  if (own["counterexample"]["state"].is_null()) return failed;
-  return fmt::format("{} in {} of {}", failed, grouped(own["failing"].get<std::uint64_t>()),
+  if (entry["counterexample"]["state"].is_null()) return failed;
+  return fmt::format("{} in {} of {}", failed, grouped(entry["failing"].get<std::uint64_t>()),
                      states_text(cells));
 }
 
-std::string worst(const Json& own, const ProblemSpec& spec) {
-  const std::string key = worst_key(own);
-  const Json& status = own[key + "_status"];
-  const auto text = [&] { return worst_text(own["kind"], own[key], status, spec); };
-  if (!own["holds"].get<bool>() && !own["counterexample"]["state"].is_null())
-    return fmt::format("{}: {}", values_text(own["counterexample"]["state"]), text());
-  if (!own["reaches_outside"].is_null()) return capital(outside_text(own, spec));
-  if (own["kind"] == "invariant") return "";
+std::string worst(const Json& entry, const ProblemSpec& spec) {
+  const std::string key = worst_key(entry);
+  const Json& status = entry[key + "_status"];
+  const auto text = [&] { return worst_text(entry["kind"], entry[key], status, spec); };
+  if (!entry["holds"].get<bool>() && !entry["counterexample"]["state"].is_null())
+    return fmt::format("{}: {}", values_text(entry["counterexample"]["state"]), text());
+  if (!entry["reaches_outside"].is_null()) return capital(outside_text(entry, spec));
+  if (entry["kind"] == "invariant") return "";
   return status == "unbounded" ? "Never needs contact" : capital(text());
 }
 
@@ -73,17 +73,17 @@ std::string steps_table(std::size_t way, const StoryTable& story) {
          "put off the end for as long as possible. Delay and collision time are in steps.</p></details>\n";
 }
 
-std::string failure(std::size_t& way, const Json& own, const ProblemSpec& spec) {
+std::string failure(std::size_t& way, const Json& entry, const ProblemSpec& spec) {
   // How many fail and the worst state are in the table above.
-  if (own["counterexample"]["state"].is_null()) return "";
-  std::string html = fmt::format("<h3>{}</h3>\n", html_line(own["name"].get<std::string>()));
-  if (!own["reaches_outside"].is_null())
-    html += "<p>" + html_line(capital(outside_text(own, spec))) + ".</p>\n";
-  if (!has_story(own)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
+  if (entry["counterexample"]["state"].is_null()) return "";
+  std::string html = fmt::format("<h3>{}</h3>\n", html_line(entry["name"].get<std::string>()));
+  if (!entry["reaches_outside"].is_null())
+    html += "<p>" + html_line(capital(outside_text(entry, spec))) + ".</p>\n";
+  if (!has_story(entry)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
   html += "<p>";
-  for (const std::string& sentence : story_sentences(own, spec)) html += html_line(sentence) + " ";
+  for (const std::string& sentence : story_sentences(entry, spec)) html += html_line(sentence) + " ";
   html += "</p>\n<p>" + visit_button(way, 0, "Show in the picture", "") + "</p>\n";
-  return html + steps_table(way++, story_table(own, spec));
+  return html + steps_table(way++, story_table(entry, spec));
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ std::string report_requirements(const ResultsReader& results) {
     all.push_back(requirement_json(requirements[r], spec.requirements[r], spec));
   if (all.empty()) return "";
   const auto failed = static_cast<std::uint64_t>(
-      std::count_if(all.begin(), all.end(), [](const Json& own) { return !own["holds"].get<bool>(); }));
+      std::count_if(all.begin(), all.end(), [](const Json& entry) { return !entry["holds"].get<bool>(); }));
   std::string html =
       "<section aria-labelledby=\"requirements-title\">\n<h2 id=\"requirements-title\">What is "
       "required</h2>\n";
@@ -105,8 +105,8 @@ std::string report_requirements(const ResultsReader& results) {
                                     grouped(all.size()), all.size() == 1 ? "" : "s", failed == 1 ? "s" : "");
   html += summary_table(all, spec) + report_names_of_regions(spec);
   std::size_t way = 0;
-  for (const Json& own : all) {
-    if (!own["holds"].get<bool>()) html += failure(way, own, spec);
+  for (const Json& entry : all) {
+    if (!entry["holds"].get<bool>()) html += failure(way, entry, spec);
   }
   return html + "</section>\n";
 }

@@ -20,23 +20,23 @@ double worst_value(const GridDimension& dimension, std::int64_t index, bool is_l
   return nearest_double(dimension.point(index) + half);
 }
 
-Json over_json(const ResultsReader& results, const ToleranceQuestion::Over& own) {
-  const GridDimension& dimension = results.grid()[own.state];
-  const std::int64_t best = own.is_large_best ? dimension.count - 1 : 0;
+Json over_json(const ResultsReader& results, const ToleranceQuestion::Over& over) {
+  const GridDimension& dimension = results.grid()[over.state];
+  const std::int64_t best = over.is_large_best ? dimension.count - 1 : 0;
   return {{"state", dimension.name},
-          {"unit", results.spec().states[own.state].unit},
-          {"best", own.is_large_best ? "large" : "small"},
-          {"worst_value", worst_value(dimension, dimension.count - 1 - best, own.is_large_best)},
-          {"best_value", worst_value(dimension, best, !own.is_large_best)}};
+          {"unit", results.spec().states[over.state].unit},
+          {"best", over.is_large_best ? "large" : "small"},
+          {"worst_value", worst_value(dimension, dimension.count - 1 - best, over.is_large_best)},
+          {"best_value", worst_value(dimension, best, !over.is_large_best)}};
 }
 
 /// "p1 from 2.5 m on", "p1 up to 2.5 m".
-std::string bound_text(const Json& own, const Json& value) {
-  const std::string unit = text_of(own["unit"]);
+std::string bound_text(const Json& entry, const Json& value) {
+  const std::string unit = text_of(entry["unit"]);
   const std::string bound =
       fmt::format("{:.6g}{}{}", value.get<double>(), unit.empty() ? "" : " ", printable(unit));
-  return own["best"] == "large" ? fmt::format("{} from {} on", text_of(own["state"]), bound)
-                                : fmt::format("{} up to {}", text_of(own["state"]), bound);
+  return entry["best"] == "large" ? fmt::format("{} from {} on", text_of(entry["state"]), bound)
+                                  : fmt::format("{} up to {}", text_of(entry["state"]), bound);
 }
 
 std::string corner_text(const Json& found, const Json& corner) {
@@ -48,9 +48,9 @@ std::string corner_text(const Json& found, const Json& corner) {
 /// "p1 = 10.5 m, v1 = 3.25 m/s": the ends of the domain that are best in the states asked about.
 std::string best_ends_text(const Json& found) {
   std::vector<std::string> ends;
-  for (const Json& own : found["over"]) {
-    const std::string unit = text_of(own["unit"]);
-    ends.push_back(fmt::format("{} = {:.6g}{}{}", text_of(own["state"]), own["best_value"].get<double>(),
+  for (const Json& entry : found["over"]) {
+    const std::string unit = text_of(entry["unit"]);
+    ends.push_back(fmt::format("{} = {:.6g}{}{}", text_of(entry["state"]), entry["best_value"].get<double>(),
                                unit.empty() ? "" : " ", printable(unit)));
   }
   return fmt::format("{}", fmt::join(ends, ", "));
@@ -79,14 +79,14 @@ Json require_json(const ResultsReader& results, const ToleranceQuestion& questio
                {"period_unit", spec.dynamics.unit},
                {"delay", question.steps}};
   json["over"] = Json::array();
-  for (const ToleranceQuestion::Over& own : question.over) json["over"].push_back(over_json(results, own));
+  for (const ToleranceQuestion::Over& over : question.over) json["over"].push_back(over_json(results, over));
   json["given"] = Json::object();
   std::vector<bool> is_named(results.grid().size(), false);
-  for (const ToleranceQuestion::Over& own : question.over) is_named[own.state] = true;
-  for (const TableSelection::Slice& own : question.given) {
-    const GridDimension& dimension = results.grid()[own.dimension];
-    json["given"][dimension.name] = nearest_double(dimension.point(own.index));
-    is_named[own.dimension] = true;
+  for (const ToleranceQuestion::Over& over : question.over) is_named[over.state] = true;
+  for (const TableSelection::Slice& slice : question.given) {
+    const GridDimension& dimension = results.grid()[slice.dimension];
+    json["given"][dimension.name] = nearest_double(dimension.point(slice.index));
+    is_named[slice.dimension] = true;
   }
   json["whatever"] = Json::array();
   for (std::size_t i = 0; i < is_named.size(); ++i)
@@ -95,8 +95,8 @@ Json require_json(const ResultsReader& results, const ToleranceQuestion& questio
   for (const FrontierCorner& corner : corners) {
     Json& values = json["corners"].emplace_back(Json::array());
     for (std::size_t i = 0; i < corner.size(); ++i) {
-      const ToleranceQuestion::Over& own = question.over[i];
-      values.push_back(worst_value(results.grid()[own.state], corner[i], own.is_large_best));
+      const ToleranceQuestion::Over& over = question.over[i];
+      values.push_back(worst_value(results.grid()[over.state], corner[i], over.is_large_best));
     }
   }
   return json;
@@ -121,7 +121,7 @@ std::string require_text(const Json& found) {
 
 std::string require_csv(const Json& found) {
   std::vector<std::string> names;
-  for (const Json& own : found["over"]) names.push_back(text_of(own["state"]));
+  for (const Json& entry : found["over"]) names.push_back(text_of(entry["state"]));
   std::string text = fmt::format("{}\n", fmt::join(names, ","));
   for (const Json& corner : found["corners"])
     text += fmt::format("{}\n", fmt::join(corner.get<std::vector<double>>(), ","));

@@ -14,22 +14,23 @@
 namespace coordreq {
 namespace {
 
-const RequirementTraits& traits_of(const Json& own) {
-  return requirement_traits(own["kind"].get<std::string>());
+const RequirementTraits& traits_of(const Json& entry) {
+  return requirement_traits(entry["kind"].get<std::string>());
 }
 
 /// The value by which states are judged: "delay", "arrival" or "approach_delay".
-std::string value_key(const Json& own) {
-  return traits_of(own).value;
+std::string value_key(const Json& entry) {
+  return traits_of(entry).value;
 }
 
-std::string cell_failures(const Json& own, const ProblemSpec& spec) {
-  const Json& story = own["counterexample"];
+std::string cell_failures(const Json& entry, const ProblemSpec& spec) {
+  const Json& story = entry["counterexample"];
   const Json& first = story["steps"].empty() ? story["end_sample"] : story["steps"].front();
-  const auto failing = own["failing"].get<std::int64_t>();
-  return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing), cells(own["cells"]),
-                     failing == 1 ? "fails" : "fail", values_text(story["state"]),
-                     worst_text(own["kind"], first[value_key(own)], first[value_key(own) + "_status"], spec));
+  const auto failing = entry["failing"].get<std::int64_t>();
+  return fmt::format(
+      "{} of {} {}, the worst at {}: it {}", grouped(failing), cells(entry["cells"]),
+      failing == 1 ? "fails" : "fail", values_text(story["state"]),
+      worst_text(entry["kind"], first[value_key(entry)], first[value_key(entry) + "_status"], spec));
 }
 
 /// "p1 above its grid".
@@ -38,8 +39,8 @@ std::string side_text(const Json& side) {
 }
 
 /// The story as a table and in sentences.
-std::string story_text(const Json& own, const ProblemSpec& spec) {
-  const StoryTable story = story_table(own, spec);
+std::string story_text(const Json& entry, const ProblemSpec& spec) {
+  const StoryTable story = story_table(entry, spec);
   std::vector<Table::Align> columns(story.heads.size(), Table::Align::left);
   std::fill_n(columns.begin(), story.numbers, Table::Align::right);
   Table table(columns);
@@ -48,7 +49,7 @@ std::string story_text(const Json& own, const ProblemSpec& spec) {
   table.add(heads);
   for (const std::vector<std::string>& row : story.rows) table.add(row);
   std::string text = table.text() + "\n";
-  for (const std::string& sentence : story_sentences(own, spec)) text += "  " + sentence + "\n";
+  for (const std::string& sentence : story_sentences(entry, spec)) text += "  " + sentence + "\n";
   return text;
 }
 
@@ -90,8 +91,8 @@ std::string end_text(const Json& story) {
 }
 
 /// The story of agents who follow their rules, up to the state in which coordination cannot help any more.
-std::vector<std::string> silent_sentences(const Json& own, const ProblemSpec& spec) {
-  const Json& story = own["counterexample"];
+std::vector<std::string> silent_sentences(const Json& entry, const ProblemSpec& spec) {
+  const Json& story = entry["counterexample"];
   std::map<std::string, std::int64_t> count;
   for (const Json& step : story["steps"]) ++count[text_of(step["action"])];
   const std::int64_t later = count["afterwards"] + count["evasive"];
@@ -110,18 +111,18 @@ std::vector<std::string> silent_sentences(const Json& own, const ProblemSpec& sp
   return sentences;
 }
 
-bool is_all_alone(const Json& own, const ProblemSpec& spec) {
+bool is_all_alone(const Json& entry, const ProblemSpec& spec) {
   const auto& all = spec.coordination.partitions;
-  const auto named = std::find_if(all.begin(), all.end(),
-                                  [&](const auto& partition) { return own["partition"] == partition.name; });
+  const auto named = std::find_if(
+      all.begin(), all.end(), [&](const auto& partition) { return entry["partition"] == partition.name; });
   const auto& classes = (named == all.end() ? all.front() : *named).classes;
   return std::all_of(classes.begin(), classes.end(), [](const auto& agents) { return agents.size() == 1; });
 }
 
 /// The nearest values of one state with which the delay is long enough, in a line.
-std::string nearest_text(const Json& own, const ProblemSpec& spec) {
-  if (!own.contains("nearest") || own["nearest"].is_null()) return "";
-  const Json& nearest = own["nearest"];
+std::string nearest_text(const Json& entry, const ProblemSpec& spec) {
+  if (!entry.contains("nearest") || entry["nearest"].is_null()) return "";
+  const Json& nearest = entry["nearest"];
   const auto is_meant = [&](const StateSpec& state) { return state.name == nearest["state"]; };
   const auto state = std::find_if(spec.states.begin(), spec.states.end(), is_meant);
   const std::string unit = state->unit.empty() ? "" : " " + printable(state->unit);
@@ -137,10 +138,10 @@ std::string steps_text(std::int64_t steps, const ProblemSpec& spec) {
   return duration(steps, nearest_double(spec.dynamics.period), spec.dynamics.unit);
 }
 
-std::string worst_key(const Json& own) {
+std::string worst_key(const Json& entry) {
   const auto& kinds = requirement_kinds();
   return std::find_if(kinds.begin(), kinds.end(),
-                      [&own](const RequirementTraits& kind) { return own.contains(kind.worst()); })
+                      [&entry](const RequirementTraits& kind) { return entry.contains(kind.worst()); })
       ->worst();
 }
 
@@ -149,16 +150,16 @@ std::string worst_text(const Json& kind, const Json& value, const Json& status, 
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
   if (status == "not_in_silence_set") return "is not safe with what comes after silence";
   if (status == "goal_cannot_be_forced") return "cannot be made to reach the goal";
-  const RequirementTraits& own = requirement_traits(kind.get<std::string>());
-  const bool is_risk = own.is_probability;
-  return fmt::format(fmt::runtime(own.failing),
+  const RequirementTraits& traits = requirement_traits(kind.get<std::string>());
+  const bool is_risk = traits.is_probability;
+  return fmt::format(fmt::runtime(traits.failing),
                      fmt::arg("steps", is_risk ? "" : steps_text(value.get<std::int64_t>(), spec)),
                      fmt::arg("risk", is_risk ? probability_text(value) : ""));
 }
 
-std::string outside_text(const Json& own, const ProblemSpec& spec) {
-  REQUIRES(!own["reaches_outside"].is_null());
-  const Json& side = own["reaches_outside"];
+std::string outside_text(const Json& entry, const ProblemSpec& spec) {
+  REQUIRES(!entry["reaches_outside"].is_null());
+  const Json& side = entry["reaches_outside"];
   std::string text = "the region may reach outside the domain, " + side_text(side);
   for (const StateSpec& state : spec.states) {
     if (state.name != text_of(side["state"])) continue;
@@ -171,42 +172,42 @@ std::string outside_text(const Json& own, const ProblemSpec& spec) {
   return text;
 }
 
-std::string claim_text(const Json& own, const ProblemSpec& spec) {
-  const RequirementTraits& kind = traits_of(own);
+std::string claim_text(const Json& entry, const ProblemSpec& spec) {
+  const RequirementTraits& kind = traits_of(entry);
   if (kind.is_probability) {
-    const std::string per = own["per"].is_null() ? "" : " per " + text_of(own["per"]);
+    const std::string per = entry["per"].is_null() ? "" : " per " + text_of(entry["per"]);
     return fmt::format(fmt::runtime(kind.claim),
-                       fmt::arg("risk", fmt::format("{:g}{}", own[kind.key].get<double>(), per)));
+                       fmt::arg("risk", fmt::format("{:g}{}", entry[kind.key].get<double>(), per)));
   }
-  const std::string steps = own.contains(kind.key) ? steps_text(number_of(own[kind.key]), spec) : "";
+  const std::string steps = entry.contains(kind.key) ? steps_text(number_of(entry[kind.key]), spec) : "";
   return fmt::format(fmt::runtime(kind.claim), fmt::arg("steps", steps),
-                     fmt::arg("partition", own["partition"].is_null() ? "" : text_of(own["partition"])));
+                     fmt::arg("partition", entry["partition"].is_null() ? "" : text_of(entry["partition"])));
 }
 
-std::string failure_line(const Json& own, const ProblemSpec& spec) {
-  if (own["holds"]) return {};
-  std::string text = own["counterexample"]["state"].is_null() ? "" : cell_failures(own, spec);
-  if (!own["reaches_outside"].is_null()) text += (text.empty() ? "" : "; ") + outside_text(own, spec);
+std::string failure_line(const Json& entry, const ProblemSpec& spec) {
+  if (entry["holds"]) return {};
+  std::string text = entry["counterexample"]["state"].is_null() ? "" : cell_failures(entry, spec);
+  if (!entry["reaches_outside"].is_null()) text += (text.empty() ? "" : "; ") + outside_text(entry, spec);
   return text;
 }
 
-std::string failure_text(const Json& own, const ProblemSpec& spec) {
-  if (own["holds"]) return {};
+std::string failure_text(const Json& entry, const ProblemSpec& spec) {
+  if (entry["holds"]) return {};
   std::string text;
-  if (!own["reaches_outside"].is_null()) text += fmt::format("  FAILS: {}.\n", outside_text(own, spec));
-  if (own["counterexample"]["state"].is_null()) return text;
-  text += fmt::format("  FAILS: {}.\n", cell_failures(own, spec)) + nearest_text(own, spec);
-  return has_story(own) ? text + "\n" + story_text(own, spec) : text;
+  if (!entry["reaches_outside"].is_null()) text += fmt::format("  FAILS: {}.\n", outside_text(entry, spec));
+  if (entry["counterexample"]["state"].is_null()) return text;
+  text += fmt::format("  FAILS: {}.\n", cell_failures(entry, spec)) + nearest_text(entry, spec);
+  return has_story(entry) ? text + "\n" + story_text(entry, spec) : text;
 }
 
-bool has_story(const Json& own) {
-  REQUIRES(own["holds"] == false);
-  return own["counterexample"]["end"] != "too_risky";
+bool has_story(const Json& entry) {
+  REQUIRES(entry["holds"] == false);
+  return entry["counterexample"]["end"] != "too_risky";
 }
 
-StoryTable story_table(const Json& own, const ProblemSpec& spec) {
-  REQUIRES(!own["counterexample"]["state"].is_null());
-  const std::string key = own["kind"] == "invariant" ? "" : value_key(own);
+StoryTable story_table(const Json& entry, const ProblemSpec& spec) {
+  REQUIRES(!entry["counterexample"]["state"].is_null());
+  const std::string key = entry["kind"] == "invariant" ? "" : value_key(entry);
   StoryTable table;
   table.heads = {"step"};
   for (const StateSpec& state : spec.states) table.heads.push_back(column_heading(state.name, state.unit));
@@ -215,7 +216,7 @@ StoryTable story_table(const Json& own, const ProblemSpec& spec) {
   table.numbers = table.heads.size();
   table.heads.emplace_back("action");
   for (const AgentSpec& agent : spec.agents) table.heads.push_back(agent.name);
-  const Json& story = own["counterexample"];
+  const Json& story = entry["counterexample"];
   Json samples = story["steps"];
   if (!story["end_sample"].is_null()) samples.push_back(story["end_sample"]);
   for (const Json& sample : samples) {
@@ -246,8 +247,8 @@ void add_seen(const Json& story, const ProblemSpec& spec, std::vector<std::strin
                   is_inside ? "The grid proves " + proven : "On the grid that takes " + proven, seen));
 }
 
-std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec) {
-  const Json& story = own["counterexample"];
+std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spec) {
+  const Json& story = entry["counterexample"];
   const Json& steps = story["steps"];
   if (steps.empty() && story["end"] == "outside_safe_set") return {"It is not safe to begin with."};
   const auto count = [&steps](const char* action) {
@@ -257,15 +258,15 @@ std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec)
   if (count("together") > 0)
     return {fmt::format("All agents together take the shortest way, and after {} {}.",
                         steps_text(count("together"), spec), end_text(story))};
-  if (requirement_traits(own["kind"].get<std::string>()).kind == RequirementKind::min_silence)
-    return silent_sentences(own, spec);
+  if (requirement_traits(entry["kind"].get<std::string>()).kind == RequirementKind::min_silence)
+    return silent_sentences(entry, spec);
   const std::int64_t alone = count("independent") + count("approaching");
   const std::int64_t evasive = count("evasive");
   std::vector<std::string> sentences;
   if (alone > 0) {
     const std::string text =
         fmt::format("Each {} does what is permitted to it alone, and after {}",
-                    is_all_alone(own, spec) ? "agent" : "class of agents", steps_text(alone, spec));
+                    is_all_alone(entry, spec) ? "agent" : "class of agents", steps_text(alone, spec));
     if (evasive == 0 && story["end"] != "no_allowed_action")
       return {fmt::format("{} {}.", text, end_text(story))};
     sentences.push_back(text + " it is too late.");
@@ -283,20 +284,20 @@ std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec)
 
 }  // namespace
 
-std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec) {
-  REQUIRES(!own["counterexample"]["state"].is_null());
-  std::vector<std::string> sentences = way_sentences(own, spec);
-  add_seen(own["counterexample"], spec, sentences);
+std::vector<std::string> story_sentences(const Json& entry, const ProblemSpec& spec) {
+  REQUIRES(!entry["counterexample"]["state"].is_null());
+  std::vector<std::string> sentences = way_sentences(entry, spec);
+  add_seen(entry["counterexample"], spec, sentences);
   return sentences;
 }
 
 std::string requirements_text(const Json& requirements, const ProblemSpec& spec) {
   std::string text;
-  for (const Json& own : requirements) {
-    text += fmt::format("\nrequirement {}: {}\n", line_of(own["name"]), claim_text(own, spec));
-    const std::string region = own["cells"] == 1 ? "the one cell" : "all " + cells(own["cells"]);
-    text += own["holds"] ? fmt::format("  holds: for {} that may meet the region\n", region)
-                         : failure_text(own, spec);
+  for (const Json& entry : requirements) {
+    text += fmt::format("\nrequirement {}: {}\n", line_of(entry["name"]), claim_text(entry, spec));
+    const std::string region = entry["cells"] == 1 ? "the one cell" : "all " + cells(entry["cells"]);
+    text += entry["holds"] ? fmt::format("  holds: for {} that may meet the region\n", region)
+                           : failure_text(entry, spec);
   }
   return text;
 }

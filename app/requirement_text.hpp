@@ -15,10 +15,10 @@ namespace coordreq {
 [[nodiscard]] std::string steps_text(std::int64_t steps, const ProblemSpec& spec);
 
 /// "delay of alone at least 20 steps (0.2 s)", "in the invariance set": what is asked of each cell.
-[[nodiscard]] std::string claim_text(const Json& own, const ProblemSpec& spec);
+[[nodiscard]] std::string claim_text(const Json& entry, const ProblemSpec& spec);
 
 /// The key of the worst value of its states: "least_delay", "longest_arrival" or "least_approach_delay".
-[[nodiscard]] std::string worst_key(const Json& own);
+[[nodiscard]] std::string worst_key(const Json& entry);
 /// The fault of the worst cell: "has a delay of 2 steps (1 s)", "is not safe".
 /// @param kind of the requirement @param value number of steps
 /// @param status as delay_word() says it, not unbounded
@@ -26,15 +26,15 @@ namespace coordreq {
                                      const ProblemSpec& spec);
 
 /// Where the region may reach, and what ends that. @pre own["reaches_outside"] is there
-[[nodiscard]] std::string outside_text(const Json& own, const ProblemSpec& spec);
+[[nodiscard]] std::string outside_text(const Json& entry, const ProblemSpec& spec);
 
 /// Why it fails, in one line; empty if it holds.
-[[nodiscard]] std::string failure_line(const Json& own, const ProblemSpec& spec);
+[[nodiscard]] std::string failure_line(const Json& entry, const ProblemSpec& spec);
 /// failure_line() with the story of its counterexample: lines that end in newlines.
-[[nodiscard]] std::string failure_text(const Json& own, const ProblemSpec& spec);
+[[nodiscard]] std::string failure_text(const Json& entry, const ProblemSpec& spec);
 
 /// There is more to tell than the worst cell. @pre it fails
-[[nodiscard]] bool has_story(const Json& own);
+[[nodiscard]] bool has_story(const Json& entry);
 
 /// One row a sample: where, what is left, and what each agent does next.
 struct StoryTable {
@@ -43,10 +43,10 @@ struct StoryTable {
   std::size_t numbers = 0;                     ///< so many of the first columns hold numbers
 };
 /// @pre the counterexample has a state, likewise below
-[[nodiscard]] StoryTable story_table(const Json& own, const ProblemSpec& spec);
+[[nodiscard]] StoryTable story_table(const Json& entry, const ProblemSpec& spec);
 
 /// The story in sentences.
-[[nodiscard]] std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec);
+[[nodiscard]] std::vector<std::string> story_sentences(const Json& entry, const ProblemSpec& spec);
 
 /// All of an analysis; empty if there are none.
 [[nodiscard]] std::string requirements_text(const Json& requirements, const ProblemSpec& spec);

@@ -42,8 +42,8 @@ std::string result_text(const Json& finding) {
 
 std::string findings_table(const Json& findings) {
   return table_text(findings,
-                    {{"check", Align::left, [](const Json& own) { return line_of(own["check"]); }},
-                     {"checked", Align::right, [](const Json& own) { return grouped(own["checked"]); }},
+                    {{"check", Align::left, [](const Json& entry) { return line_of(entry["check"]); }},
+                     {"checked", Align::right, [](const Json& entry) { return grouped(entry["checked"]); }},
                      {"result", Align::left, result_text}});
 }
 

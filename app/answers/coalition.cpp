@@ -90,10 +90,10 @@ std::string coalitions_of_file(const Json& info) {
   const auto add = [&table](const std::string& name, const Json& count) {
     if (!count.is_null() && count > 0) table.add({name, cells(count)});
   };
-  for (const Json& own : coalition["partitions"]) add("  " + line_of(own["name"]), own["cells"]);
+  for (const Json& entry : coalition["partitions"]) add("  " + line_of(entry["name"]), entry["cells"]);
   add("  none suffices", coalition["no_partition_suffices"]);
-  for (const Json& own : coalition["critical_pairs"])
-    add("  critical pair " + line_of(own["name"]), own["cells"]);
+  for (const Json& entry : coalition["critical_pairs"])
+    add("  critical pair " + line_of(entry["name"]), entry["cells"]);
   return fmt::format("\ncoalitions for {}\n{}", duration(coalition["horizon"], info), table.text());
 }
 

@@ -26,8 +26,8 @@ std::string more_modes(std::size_t modes) {
 
 std::string network_of_analysis(const Json& summary, const ProblemSpec& spec) {
   if (!spec.network || !tells_partitions_in_full(summary)) return "";
-  const Json& own = summary["network"];
-  const Json& modes = own["modes"];
+  const Json& entry = summary["network"];
+  const Json& modes = entry["modes"];
   Table table({Table::Align::left, Table::Align::left, Table::Align::right});
   table.add({"  mode", "connected", "safe cells"});
   for (std::size_t mode = 0; mode < std::min(kMostModes, modes.size()); ++mode) {
@@ -37,9 +37,9 @@ std::string network_of_analysis(const Json& summary, const ProblemSpec& spec) {
   return fmt::format(
       "\nnetwork {}: {}\n{}{}  Beginning in mode {}, {} stay safe from {} of {}; whatever the mode is, from "
       "{}.\n",
-      text_of(own["kind"]), network_meaning(*spec.network), table.text(), more_modes(modes.size()),
-      text_of(own["initial"]), own["resynthesise"] ? "agents that take care" : "the agents",
-      grouped(modes.front()["cells"]), cells(summary["invariant"]), grouped(own["cells_in_every_mode"]));
+      text_of(entry["kind"]), network_meaning(*spec.network), table.text(), more_modes(modes.size()),
+      text_of(entry["initial"]), entry["resynthesise"] ? "agents that take care" : "the agents",
+      grouped(modes.front()["cells"]), cells(summary["invariant"]), grouped(entry["cells_in_every_mode"]));
 }
 
 std::string network_of_file(const Json& info) {

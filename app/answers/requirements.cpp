@@ -20,23 +20,23 @@ bool has_other_values(const Json& info) {
 }  // namespace
 
 std::string requirements_of_file(const Json& info) {
-  const auto least = [&info](const Json& own) {
-    const std::string key = worst_key(own);
-    const Json& status = own[key + "_status"];
-    return status == "steps" ? duration(own[key], info) : text_of(status);
+  const auto least = [&info](const Json& entry) {
+    const std::string key = worst_key(entry);
+    const Json& status = entry[key + "_status"];
+    return status == "steps" ? duration(entry[key], info) : text_of(status);
   };
-  const auto story = [&info](const Json& own) {
-    const Json& steps = own["counterexample_steps"];
-    return !steps.is_null() ? duration(steps, info) : own["holds"] ? "-" : "outside the domain";
+  const auto story = [&info](const Json& entry) {
+    const Json& steps = entry["counterexample_steps"];
+    return !steps.is_null() ? duration(steps, info) : entry["holds"] ? "-" : "outside the domain";
   };
   if (info["requirements"].empty()) return "";
   return "\n" +
          table_text(
              info["requirements"],
-             {{"requirement", Align::left, [](const Json& own) { return line_of(own["name"]); }},
-              {"verdict", Align::left, [](const Json& own) { return own["holds"] ? "holds" : "FAILS"; }},
-              {"cells", Align::right, [](const Json& own) { return grouped(own["cells"]); }},
-              {"failing", Align::right, [](const Json& own) { return grouped(own["failing"]); }},
+             {{"requirement", Align::left, [](const Json& entry) { return line_of(entry["name"]); }},
+              {"verdict", Align::left, [](const Json& entry) { return entry["holds"] ? "holds" : "FAILS"; }},
+              {"cells", Align::right, [](const Json& entry) { return grouped(entry["cells"]); }},
+              {"failing", Align::right, [](const Json& entry) { return grouped(entry["failing"]); }},
               {has_other_values(info) ? "worst" : "least delay", Align::left, least},
               {"counterexample", Align::right, story}});
 }

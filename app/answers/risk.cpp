@@ -47,8 +47,8 @@ const char* coordinated_text(const ProblemSpec& spec) {
 
 std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
   if (!spec.risk || !tells_partitions_in_full(summary)) return "";
-  const Json& own = summary["risk"];
-  const Json& modes = own["modes"];
+  const Json& entry = summary["risk"];
+  const Json& modes = entry["modes"];
   std::vector<std::string> heads = {"  mode", "worst", "mean"};
   for (const Threshold& threshold : kShown) heads.push_back(std::string("at most ") + threshold.text);
   std::vector<Table::Align> columns(heads.size(), Table::Align::right);
@@ -64,10 +64,11 @@ std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
   const std::string more = modes.size() <= kMostModes
                                ? ""
                                : fmt::format("  ... and {} more modes\n", grouped(modes.size() - kMostModes));
-  return fmt::format(
-      "\nrisk within {}: {}\n{}{}  Later it grows by at most {}.\n",
-      duration(own["horizon"].get<std::int64_t>(), nearest_double(spec.dynamics.period), spec.dynamics.unit),
-      coordinated_text(spec), table.text(), more, rate_text(own["rate"].get<double>(), spec));
+  return fmt::format("\nrisk within {}: {}\n{}{}  Later it grows by at most {}.\n",
+                     duration(entry["horizon"].get<std::int64_t>(), nearest_double(spec.dynamics.period),
+                              spec.dynamics.unit),
+                     coordinated_text(spec), table.text(), more,
+                     rate_text(entry["rate"].get<double>(), spec));
 }
 
 bool has_risk(const ProblemSpec& spec) {

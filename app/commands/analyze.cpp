@@ -11,11 +11,11 @@
 namespace coordreq {
 namespace {
 
-ExitCode run(const AnalyzeOptions& own) {
-  own.hold_to_memory();
-  if (own.is_batch()) return run_analyze_batch(own);
-  const ProblemSpec spec = load_spec(own.specs.front(), own.settings, own.memory());
-  return analyze_and_print(spec, own);
+ExitCode run(const AnalyzeOptions& options) {
+  options.hold_to_memory();
+  if (options.is_batch()) return run_analyze_batch(options);
+  const ProblemSpec spec = load_spec(options.specs.front(), options.settings, options.memory());
+  return analyze_and_print(spec, options);
 }
 
 }  // namespace

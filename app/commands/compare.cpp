@@ -15,9 +15,9 @@ struct CompareArguments : CommonOptions {
 };
 
 ResultsComparison compare_with_progress(const ResultsReader& before, const ResultsReader& after,
-                                        const CompareArguments& own) {
-  ProgressDisplay shown(own.progress, own.quiet);
-  CompareOptions options = own.compare;
+                                        const CompareArguments& arguments) {
+  ProgressDisplay shown(arguments.progress, arguments.quiet);
+  CompareOptions options = arguments.compare;
   options.progress = [&shown](const std::string& subject) {
     shown.update({.stage = "comparing " + subject});
   };
@@ -26,14 +26,14 @@ ResultsComparison compare_with_progress(const ResultsReader& before, const Resul
   return comparison;
 }
 
-ExitCode run(const CompareArguments& own) {
-  own.keep_to_memory();
-  const ResultsReader before(own.before, own.max_memory);
-  const ResultsReader after(own.after, own.max_memory);
+ExitCode run(const CompareArguments& arguments) {
+  arguments.keep_to_memory();
+  const ResultsReader before(arguments.before, arguments.max_memory);
+  const ResultsReader after(arguments.after, arguments.max_memory);
   static_cast<void>(
-      own.threads_for("comparing needs", {.once = before.reading_bytes() + after.reading_bytes()}));
-  const ResultsComparison comparison = compare_with_progress(before, after, own);
-  print_comparison(own, comparison, before, after, own.compare);
+      arguments.threads_for("comparing needs", {.once = before.reading_bytes() + after.reading_bytes()}));
+  const ResultsComparison comparison = compare_with_progress(before, after, arguments);
+  print_comparison(arguments, comparison, before, after, arguments.compare);
   return comparison.is_worse() ? ExitCode::requirement_failed : ExitCode::success;
 }
 
@@ -42,18 +42,18 @@ ExitCode run(const CompareArguments& own) {
 Run declare_compare(Options& options) {
   constexpr std::int64_t kMostSteps = 2'147'483'646;
   constexpr std::size_t kMostCells = 1'000'000;
-  const auto own = std::make_shared<CompareArguments>();
-  options.argument(own->before, "A", "The earlier results file", "RESULTS");
-  options.argument(own->after, "B", "The later results file", "RESULTS");
+  const auto arguments = std::make_shared<CompareArguments>();
+  options.argument(arguments->before, "A", "The earlier results file", "RESULTS");
+  options.argument(arguments->after, "B", "The later results file", "RESULTS");
   options.option(
-      own->compare.tolerance, "--tolerance", "N",
+      arguments->compare.tolerance, "--tolerance", "N",
       "Steps that a cell may lose, unless it leaves the invariance set or was unbounded (default: 0)",
       WholeNumber<std::int64_t>{0, kMostSteps});
-  options.option(own->compare.worst, "--limit", "N", "Cells to name for each partition (default: 5)",
+  options.option(arguments->compare.worst, "--limit", "N", "Cells to name for each partition (default: 5)",
                  WholeNumber<std::size_t>{0, kMostCells});
-  declare_progress(options, own->progress);
-  declare_common(options, *own, {.threads = false});
-  return [own] { return run(*own); };
+  declare_progress(options, arguments->progress);
+  declare_common(options, *arguments, {.threads = false});
+  return [arguments] { return run(*arguments); };
 }
 
 }  // namespace coordreq

@@ -19,18 +19,18 @@ struct ExplainOptions : CommonOptions {
   std::string partition;
 };
 
-ExitCode run(const ExplainOptions& own) {
-  if (own.at.empty()) throw UsageError("no state, expected --at NAME=VALUE,...");
-  own.keep_to_memory();
-  const ResultsReader results(own.results, own.max_memory);
-  const std::size_t partition = find_partition(results.spec(), own.partition);
-  const std::vector<Rational> state = parse_state(own.at, state_names(results.spec()), "--at");
+ExitCode run(const ExplainOptions& options) {
+  if (options.at.empty()) throw UsageError("no state, expected --at NAME=VALUE,...");
+  options.keep_to_memory();
+  const ResultsReader results(options.results, options.max_memory);
+  const std::size_t partition = find_partition(results.spec(), options.partition);
+  const std::vector<Rational> state = parse_state(options.at, state_names(results.spec()), "--at");
   const Location location = locate(results.grid(), state);
   if (location.kind != Location::Kind::cell)
     throw UsageError("expected a state in a cell of the grid, found one outside; see query", "--at");
-  ThreadTeam team(own.threads_for("explaining needs", explain_demand(results, partition, location.cell)));
+  ThreadTeam team(options.threads_for("explaining needs", explain_demand(results, partition, location.cell)));
   const DelayExplanation found = explain_delay(results, partition, location.cell, state, team);
-  print_answer(own, explanation_json(found, state, location.cell, partition, results),
+  print_answer(options, explanation_json(found, state, location.cell, partition, results),
                [&](const Json& json) { return explanation_text(json, results.spec()); });
   return ExitCode::success;
 }

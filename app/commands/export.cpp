@@ -62,83 +62,83 @@ std::vector<std::string> partition_names(const ResultsReader& results) {
   return names;
 }
 
-std::optional<std::size_t> chosen_partition(const ExportOptions& own, const ResultsReader& results) {
-  if (!own.partition) return std::nullopt;
+std::optional<std::size_t> chosen_partition(const ExportOptions& options, const ResultsReader& results) {
+  if (!options.partition) return std::nullopt;
   const std::vector<std::string> names = partition_names(results);
-  const auto found = std::find(names.begin(), names.end(), *own.partition);
+  const auto found = std::find(names.begin(), names.end(), *options.partition);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   throw UsageError(
-      fmt::format("no partition {}, expected {}", quote_text(*own.partition), quote_list(names, "or")),
+      fmt::format("no partition {}, expected {}", quote_text(*options.partition), quote_list(names, "or")),
       "--partition");
 }
 
-std::size_t one_partition(const ExportOptions& own, const ResultsReader& results) {
-  if (const std::optional<std::size_t> chosen = chosen_partition(own, results)) return *chosen;
+std::size_t one_partition(const ExportOptions& options, const ResultsReader& results) {
+  if (const std::optional<std::size_t> chosen = chosen_partition(options, results)) return *chosen;
   if (results.partitions().size() == 1) return 0;
   throw UsageError(
       fmt::format("which partition? expected --partition {}", quote_list(partition_names(results), "or")));
 }
 
-void refuse_selection(const ExportOptions& own) {
-  if (own.slices.empty() && own.projections.empty()) return;
+void refuse_selection(const ExportOptions& options) {
+  if (options.slices.empty() && options.projections.empty()) return;
   throw UsageError(fmt::format("only csv and vtk can be cut, found it with {}",
-                               own.format == Format::scs ? "scs" : "c-header"),
-                   own.slices.empty() ? "--project" : "--slice");
+                               options.format == Format::scs ? "scs" : "c-header"),
+                   options.slices.empty() ? "--project" : "--slice");
 }
 
-TableSelection selection_of(const ExportOptions& own, const ResultsReader& results) {
-  TableSelection selection = parse_selection(own.slices, own.projections, results.grid());
-  selection.partition = chosen_partition(own, results);
+TableSelection selection_of(const ExportOptions& options, const ResultsReader& results) {
+  TableSelection selection = parse_selection(options.slices, options.projections, results.grid());
+  selection.partition = chosen_partition(options, results);
   return selection;
 }
 
-Exporter exporter(const ExportOptions& own, const ResultsReader& results) {
-  if (own.controller && own.format != Format::scs)
+Exporter exporter(const ExportOptions& options, const ResultsReader& results) {
+  if (options.controller && options.format != Format::scs)
     throw UsageError("only scs is of one controller", "--controller");
-  if (own.format == Format::csv) {
-    const TableSelection selection = selection_of(own, results);
+  if (options.format == Format::csv) {
+    const TableSelection selection = selection_of(options, results);
     return {
         {.once = CellTable::bytes(results, selection)},
         [&results, selection](const TextSink& sink, ThreadTeam&) { export_csv(results, selection, sink); }};
   }
-  if (own.format == Format::vtk) {
-    if (!own.output || !own.output->ends_with(".vti")) {
+  if (options.format == Format::vtk) {
+    if (!options.output || !options.output->ends_with(".vti")) {
       throw UsageError(fmt::format("expected a name that ends in .vti, found {}",
-                                   own.output ? quote_text(*own.output) : "none"),
+                                   options.output ? quote_text(*options.output) : "none"),
                        "-o");
     }
-    const TableSelection selection = selection_of(own, results);
+    const TableSelection selection = selection_of(options, results);
     return {{.once = image_bytes(results, selection)},
             [&results, selection](const TextSink& sink, ThreadTeam&) {
               export_vti(cell_image(results, selection), sink);
             }};
   }
-  refuse_selection(own);
-  if (own.format == Format::scs) {
-    if (own.partition)
+  refuse_selection(options);
+  if (options.format == Format::scs) {
+    if (options.partition)
       throw UsageError("scs holds the controller, which no partition changes", "--partition");
-    const ControllerKind kind = own.controller.value_or(ControllerKind::safety);
+    const ControllerKind kind = options.controller.value_or(ControllerKind::safety);
     if (kind == ControllerKind::progress && !results.spec().goal)
       throw UsageError("the spec has no goal, expected safety, found progress", "--controller");
     return {scots_demand(results), [&results, kind](const TextSink& sink, ThreadTeam& team) {
               export_scots(results, kind, team, sink);
             }};
   }
-  const std::size_t partition = one_partition(own, results);
+  const std::size_t partition = one_partition(options, results);
   return {c_header_demand(results), [&results, partition](const TextSink& sink, ThreadTeam& team) {
             export_c_header(results, partition, team, sink);
           }};
 }
 
-ExitCode run(const ExportOptions& own) {
-  if (!own.format) throw UsageError("no --format, expected csv, scs, c-header or vtk");
-  if (own.output) check_output(own.results, *own.output, "the export");
-  own.keep_to_memory();
-  const ResultsReader results(own.results, own.max_memory);
-  const Exporter wanted = exporter(own, results);
-  ThreadTeam team(own.threads_for("exporting needs", wanted.demand));
+ExitCode run(const ExportOptions& options) {
+  if (!options.format) throw UsageError("no --format, expected csv, scs, c-header or vtk");
+  if (options.output) check_output(options.results, *options.output, "the export");
+  options.keep_to_memory();
+  const ResultsReader results(options.results, options.max_memory);
+  const Exporter wanted = exporter(options, results);
+  ThreadTeam team(options.threads_for("exporting needs", wanted.demand));
   std::optional<AtomicFile> file;
-  if (own.output) file.emplace(*own.output, "the export");
+  if (options.output) file.emplace(*options.output, "the export");
   Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });
   wanted.write([&blocks](std::string_view text) { blocks.add(text); }, team);
   blocks.flush();

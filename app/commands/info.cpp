@@ -48,13 +48,13 @@ std::string axes_text(const Json& info) {
 }
 
 std::string described_partitions(const Json& partitions) {
-  return table_text(partitions,
-                    {{"partition", Align::left, [](const Json& own) { return line_of(own["name"]); }},
-                     {"F", Align::right,
-                      [](const Json& own) { return own["truncated"] ? "not reached" : own["F"].dump(); }},
-                     {"layers", Align::left, [](const Json& own) {
-                        return shortened(own["layers"].get<std::vector<std::int64_t>>());
-                      }}});
+  return table_text(
+      partitions, {{"partition", Align::left, [](const Json& entry) { return line_of(entry["name"]); }},
+                   {"F", Align::right,
+                    [](const Json& entry) { return entry["truncated"] ? "not reached" : entry["F"].dump(); }},
+                   {"layers", Align::left, [](const Json& entry) {
+                      return shortened(entry["layers"].get<std::vector<std::int64_t>>());
+                    }}});
 }
 
 std::string info_text(const Json& info) {

@@ -24,26 +24,26 @@ struct JudgeOptions : CommonOptions {
   bool csv = false;  ///< a line for each row instead of the summary
 };
 
-ExitCode run(const JudgeOptions& own) {
-  if (own.csv && own.json) throw UsageError("expected --csv or --json, found both", "--csv");
-  own.keep_to_memory();
-  const ResultsReader results(own.results, own.max_memory);
-  const std::size_t partition = find_partition(results.spec(), own.partition);
-  ThreadTeam team(own.threads_for("judging needs", controller_demand(results, true)));
+ExitCode run(const JudgeOptions& options) {
+  if (options.csv && options.json) throw UsageError("expected --csv or --json, found both", "--csv");
+  options.keep_to_memory();
+  const ResultsReader results(options.results, options.max_memory);
+  const std::size_t partition = find_partition(results.spec(), options.partition);
+  ThreadTeam team(options.threads_for("judging needs", controller_demand(results, true)));
   LogReader log(std::cin, results.spec(), "standard input");
-  IgnoredColumns ignored(own.quiet, "no state or input");
+  IgnoredColumns ignored(options.quiet, "no state or input");
   ignored.tell(log.unknown_names(), "");
   LogJudge judge(results, partition, log, team);
   JudgeSummary summary(results, partition);
-  if (own.csv) write_output(judged_csv_header(results, partition));
+  if (options.csv) write_output(judged_csv_header(results, partition));
   while (const std::optional<JudgedRow> row = judge.next()) {
     ignored.tell(log.unknown_names(), "");
     summary.add(*row);
-    if (own.csv) write_output(judged_csv_line(*row));
+    if (options.csv) write_output(judged_csv_line(*row));
   }
   if (summary.rows() == 0)
     throw UsageError("no samples, expected a line of column names and a line for each", "standard input");
-  if (!own.csv) print_answer(own, summary.json(), judgement_text);
+  if (!options.csv) print_answer(options, summary.json(), judgement_text);
   return summary.holds() ? ExitCode::success : ExitCode::requirement_failed;
 }
 

@@ -37,59 +37,60 @@ struct QueryOptions : CommonOptions {
 constexpr const char* kSilence = "/silence";
 
 /// Line by line, so that a program at the other end of two pipes gets each answer before it asks on.
-void answer_standard_input(const QueryOptions& own, const ResultsReader& results, StateQuery& query) {
+void answer_standard_input(const QueryOptions& options, const ResultsReader& results, StateQuery& query) {
   const QueryForm form(results);
   StateReader states(std::cin, state_names(results.spec()), "standard input");
-  const bool json = own.json || states.format() == StateReader::Format::json_lines;
-  IgnoredColumns ignored(own.quiet || own.extra, "no state");
+  const bool json = options.json || states.format() == StateReader::Format::json_lines;
+  IgnoredColumns ignored(options.quiet || options.extra, "no state");
   constexpr const char* kHint = "; --extra passes it through";
   ignored.tell(states.extra_names(), kHint);
   if (!json)
-    write_output(answer_csv_header(form, own.extra ? states.extra_names() : std::vector<std::string>()));
+    write_output(answer_csv_header(form, options.extra ? states.extra_names() : std::vector<std::string>()));
   while (std::optional<std::vector<Rational>> state = states.next()) {
     ignored.tell(states.extra_names(), kHint);
     const StateAnswer answer = query.at(std::move(*state));
-    write_output(json ? answer_json_line(answer, form, own.extra ? &states.extra() : nullptr)
-                      : answer_csv_line(answer, form, own.extra ? states.extra() : Extras()));
+    write_output(json ? answer_json_line(answer, form, options.extra ? &states.extra() : nullptr)
+                      : answer_csv_line(answer, form, options.extra ? states.extra() : Extras()));
   }
 }
 
-void check_least(const QueryOptions& own) {
-  if (own.least && own.at) throw UsageError("expected --at or --least, found both", "--least");
-  if (own.least && own.extra) throw UsageError("one answer for all pairs, expected no --extra", "--extra");
-  if (!own.least && own.at_least) throw UsageError("expected --least with it", "--at-least");
-  if (!own.least && !own.partition.empty())
+void check_least(const QueryOptions& options) {
+  if (options.least && options.at) throw UsageError("expected --at or --least, found both", "--least");
+  if (options.least && options.extra)
+    throw UsageError("one answer for all pairs, expected no --extra", "--extra");
+  if (!options.least && options.at_least) throw UsageError("expected --least with it", "--at-least");
+  if (!options.least && !options.partition.empty())
     throw UsageError("all partitions are shown, expected it with --least only", "--partition");
 }
 
-ExitCode answer_least(const QueryOptions& own, const ResultsReader& results) {
+ExitCode answer_least(const QueryOptions& options, const ResultsReader& results) {
   if (!results.has(kSilence))
     throw UsageError("the results have no silence, expected those of a spec with the key 'silence'",
                      "--least");
   const Field& field = results.field(kSilence);
-  const std::size_t partition = find_partition(results.spec(), own.partition);
-  IgnoredColumns ignored(own.quiet, "no state");
+  const std::size_t partition = find_partition(results.spec(), options.partition);
+  IgnoredColumns ignored(options.quiet, "no state");
   const LeastSteps found =
-      least_steps(results, field, partition, std::cin, "standard input", own.at_least,
+      least_steps(results, field, partition, std::cin, "standard input", options.at_least,
                   [&ignored](const std::vector<std::string>& names) { ignored.tell(names, ""); });
-  print_answer(own, least_json(found, field, partition, own.at_least, results),
+  print_answer(options, least_json(found, field, partition, options.at_least, results),
                [&](const Json& json) { return least_text(json, field); });
   return found.below.value_or(0) > 0 ? ExitCode::requirement_failed : ExitCode::success;
 }
 
-ExitCode run(const QueryOptions& own) {
-  check_least(own);
-  own.keep_to_memory();
-  const ResultsReader results(own.results, own.max_memory);
-  if (own.least) return answer_least(own, results);
-  ThreadTeam team(own.threads_for("answering needs", controller_demand(results, !own.at)));
+ExitCode run(const QueryOptions& options) {
+  check_least(options);
+  options.keep_to_memory();
+  const ResultsReader results(options.results, options.max_memory);
+  if (options.least) return answer_least(options, results);
+  ThreadTeam team(options.threads_for("answering needs", controller_demand(results, !options.at)));
   StateQuery query(results, team);
-  if (!own.at) {
-    answer_standard_input(own, results, query);
+  if (!options.at) {
+    answer_standard_input(options, results, query);
     return ExitCode::success;
   }
-  const StateAnswer answer = query.at(parse_state(*own.at, state_names(results.spec()), "--at"));
-  print_state(own, answer, QueryForm(results));
+  const StateAnswer answer = query.at(parse_state(*options.at, state_names(results.spec()), "--at"));
+  print_state(options, answer, QueryForm(results));
   return ExitCode::success;
 }
 

@@ -77,18 +77,18 @@ struct ReportOptions : CommonOptions {
   std::optional<std::string> output;
 };
 
-ExitCode run(const ReportOptions& own) {
-  own.keep_to_memory();
-  const ResultsReader results(own.results, own.max_memory);
-  static_cast<void>(own.threads_for("a report needs", {.once = report_bytes(results)}));
-  const std::string path = own.output.value_or(results.spec().name + ".html");
-  check_output(own.results, path, "the report");
+ExitCode run(const ReportOptions& options) {
+  options.keep_to_memory();
+  const ResultsReader results(options.results, options.max_memory);
+  static_cast<void>(options.threads_for("a report needs", {.once = report_bytes(results)}));
+  const std::string path = options.output.value_or(results.spec().name + ".html");
+  check_output(options.results, path, "the report");
   AtomicFile file(path, "the report");
   ReportData data;
   const std::string page = page_of(results, data);
   file.write(page);
   file.commit();
-  print_answer(own, summary_json(path, page.size(), data, results), [&results](const Json& summary) {
+  print_answer(options, summary_json(path, page.size(), data, results), [&results](const Json& summary) {
     return summary_text(summary, results.partitions().size());
   });
   return ExitCode::success;

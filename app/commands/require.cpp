@@ -45,10 +45,10 @@ std::int64_t steps_of(const std::string& text, const DynamicsSpec& dynamics) {
   return ceil_to_int(steps);
 }
 
-std::vector<ToleranceQuestion::Over> over_of(const RequireOptions& own, const ResultsReader& results) {
+std::vector<ToleranceQuestion::Over> over_of(const RequireOptions& options, const ResultsReader& results) {
   std::vector<ToleranceQuestion::Over> over;
   const std::vector<std::string> names = state_names(results.spec()).names;
-  for (const std::string_view part : split_at_commas(own.over)) {
+  for (const std::string_view part : split_at_commas(options.over)) {
     const std::size_t state = state_number(trimmed(part), names, "--over");
     for (const ToleranceQuestion::Over& other : over)
       if (other.state == state) throw UsageError(echoed(names[state]) + " is given twice", "--over");
@@ -56,7 +56,7 @@ std::vector<ToleranceQuestion::Over> over_of(const RequireOptions& own, const Re
   }
   if (over.size() > 2)
     throw UsageError(fmt::format("expected one state or two, found {}", over.size()), "--over");
-  const std::vector<std::string_view> words = split_at_commas(own.best);
+  const std::vector<std::string_view> words = split_at_commas(options.best);
   if (words.size() != 1 && words.size() != over.size())
     throw UsageError("expected one word for each state of --over", "--best");
   const OneOf<bool> best{{{"large", true}, {"small", false}}};
@@ -65,11 +65,11 @@ std::vector<ToleranceQuestion::Over> over_of(const RequireOptions& own, const Re
   return over;
 }
 
-std::vector<TableSelection::Slice> given_of(const RequireOptions& own, const ResultsReader& results,
+std::vector<TableSelection::Slice> given_of(const RequireOptions& options, const ResultsReader& results,
                                             const std::vector<ToleranceQuestion::Over>& over) {
   std::vector<TableSelection::Slice> given;
   const std::vector<std::string> names = state_names(results.spec()).names;
-  for (const auto& [name, value] : own.given) {
+  for (const auto& [name, value] : options.given) {
     const std::size_t state = state_number(name, names, "--given");
     for (const ToleranceQuestion::Over& other : over)
       if (other.state == state) throw UsageError(echoed(name) + " is sought, expected no value", "--given");
@@ -82,23 +82,23 @@ std::vector<TableSelection::Slice> given_of(const RequireOptions& own, const Res
   return given;
 }
 
-ExitCode run(const RequireOptions& own) {
-  if (own.csv && own.json) throw UsageError("expected --csv or --json, found both", "--csv");
-  if (own.delay.empty()) throw UsageError("expected how much silence is to be tolerated", "--delay");
-  if (own.over.empty()) throw UsageError("expected the state that is sought", "--over");
-  own.keep_to_memory();
-  const ResultsReader results(own.results, own.max_memory);
-  ToleranceQuestion question{.partition = find_partition(results.spec(), own.partition),
-                             .steps = steps_of(own.delay, results.spec().dynamics)};
-  question.over = over_of(own, results);
-  question.given = given_of(own, results, question.over);
-  static_cast<void>(own.threads_for("reading needs", {.once = results.reading_bytes()}));
+ExitCode run(const RequireOptions& options) {
+  if (options.csv && options.json) throw UsageError("expected --csv or --json, found both", "--csv");
+  if (options.delay.empty()) throw UsageError("expected how much silence is to be tolerated", "--delay");
+  if (options.over.empty()) throw UsageError("expected the state that is sought", "--over");
+  options.keep_to_memory();
+  const ResultsReader results(options.results, options.max_memory);
+  ToleranceQuestion question{.partition = find_partition(results.spec(), options.partition),
+                             .steps = steps_of(options.delay, results.spec().dynamics)};
+  question.over = over_of(options, results);
+  question.given = given_of(options, results, question.over);
+  static_cast<void>(options.threads_for("reading needs", {.once = results.reading_bytes()}));
   const Json found = require_json(results, question, tolerance_frontier(results, question));
-  if (own.csv) {
+  if (options.csv) {
     write_output(require_csv(found));
     return ExitCode::success;
   }
-  print_answer(own, found, require_text);
+  print_answer(options, found, require_text);
   return ExitCode::success;
 }
 

@@ -38,11 +38,12 @@ void read_disturbance(SimulationOptions& simulation, const std::string& text, co
   }
 }
 
-void check_complete(const SimulateOptions& own) {
-  if (own.simulation.start && own.starts_anywhere) throw UsageError("expected --from or --start, found both");
-  if (!own.simulation.start && !own.starts_anywhere)
+void check_complete(const SimulateOptions& options) {
+  if (options.simulation.start && options.starts_anywhere)
+    throw UsageError("expected --from or --start, found both");
+  if (!options.simulation.start && !options.starts_anywhere)
     throw UsageError("no start, expected --from NAME=VALUE,... or --start random");
-  if (!own.has_steps) throw UsageError("no number of steps, expected --steps N");
+  if (!options.has_steps) throw UsageError("no number of steps, expected --steps N");
 }
 
 Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& options,

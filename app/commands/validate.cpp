@@ -89,23 +89,23 @@ constexpr int kMostRanks = 10000;
 
 using Align = Table::Align;
 
-std::string name_of(const Json& own) {
-  return text_of(own["name"]);
+std::string name_of(const Json& entry) {
+  return text_of(entry["name"]);
 }
 
-std::string points_of(const Json& own) {
-  return grouped(own["points"]);
+std::string points_of(const Json& entry) {
+  return grouped(entry["points"]);
 }
 
-std::string unit_of(const Json& own) {
-  return line_of(own["unit"]);
+std::string unit_of(const Json& entry) {
+  return line_of(entry["unit"]);
 }
 
 /// "10 cells (9.9 %)": in a period at most, and of the domain.
-std::string motion_text(const Json& own) {
-  const auto cells = own["cells"].get<double>();
+std::string motion_text(const Json& entry) {
+  const auto cells = entry["cells"].get<double>();
   const std::string count = rough_amount(cells, cells == 1 ? "cell" : "cells");
-  return fmt::format("{} ({} %)", count, rough_amount(100 * own["share"].get<double>(), ""));
+  return fmt::format("{} ({} %)", count, rough_amount(100 * entry["share"].get<double>(), ""));
 }
 
 std::string states_table(const Json& states, const Json& motion, bool is_verbose) {
@@ -114,14 +114,15 @@ std::string states_table(const Json& states, const Json& motion, bool is_verbose
       {"state", Align::left, name_of},
       {"points", Align::right, points_of},
       {"unit", Align::left, unit_of},
-      {"outside", Align::left, [](const Json& own) { return sides_text(own["outside"]); }},
+      {"outside", Align::left, [](const Json& entry) { return sides_text(entry["outside"]); }},
       {"moves in a period at most", Align::left, [&](const Json&) { return motion_text(motion[at++]); }}};
   if (is_verbose) {
-    columns.insert(columns.end(),
-                   {{"table", Align::left, table_kind},
-                    {"entries", Align::right, [](const Json& own) { return grouped(own["table_entries"]); }},
-                    {"memory", Align::right,
-                     [](const Json& own) { return byte_size(own["table_bytes"].get<std::uint64_t>()); }}});
+    columns.insert(
+        columns.end(),
+        {{"table", Align::left, table_kind},
+         {"entries", Align::right, [](const Json& entry) { return grouped(entry["table_entries"]); }},
+         {"memory", Align::right,
+          [](const Json& entry) { return byte_size(entry["table_bytes"].get<std::uint64_t>()); }}});
   }
   columns.push_back({"next value depends on", Align::left, dependencies});
   return table_text(states, columns);
@@ -202,16 +203,17 @@ struct ValidateOptions : CommonOptions {
 };
 
 /// What is found out about a spec.
-Json inspected(const ProblemSpec& spec, const ValidateOptions& own) {
-  const std::optional<std::uint64_t> memory = own.memory();
+Json inspected(const ProblemSpec& spec, const ValidateOptions& options) {
+  const std::optional<std::uint64_t> memory = options.memory();
   const Model model = make_model(spec);
-  const int threads = own.ranks ? own.threads : threads_within(model, own.max_memory, own.threads, false);
+  const int threads =
+      options.ranks ? options.threads : threads_within(model, options.max_memory, options.threads, false);
   const SpecReport report = inspect(model, threads);
   Json found = report_json(report, spec);
   found["seconds"] = nullptr;
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(threads);
-    if (const std::optional<double> seconds = own.quiet ? std::nullopt : estimate_seconds(model, team);
+    if (const std::optional<double> seconds = options.quiet ? std::nullopt : estimate_seconds(model, team);
         seconds)
       found["seconds"] = *seconds;
     check_regions(spec, team);
@@ -219,22 +221,23 @@ Json inspected(const ProblemSpec& spec, const ValidateOptions& own) {
   } else {
     found["warnings"] = warnings_json({too_large_here(report, *memory)});
   }
-  if (own.ranks) {
-    ThreadTeam team(own.threads);
-    found["fullest_rank"] = ranks_json(
-        *own.ranks,
-        inspect_ranks(model, *own.ranks, own.threads, {.of_rank = own.max_memory, .here = memory}, team));
+  if (options.ranks) {
+    ThreadTeam team(options.threads);
+    found["fullest_rank"] =
+        ranks_json(*options.ranks, inspect_ranks(model, *options.ranks, options.threads,
+                                                 {.of_rank = options.max_memory, .here = memory}, team));
   }
   return found;
 }
 
-ExitCode run(const ValidateOptions& own) {
-  own.hold_to_memory();
-  const ProblemSpec spec = load_spec(own.spec, own.settings, own.memory());
-  const Json found = with_places_in(spec, [&] { return inspected(spec, own); });
-  PrintedWarnings(own).print(found["warnings"]);
-  print_answer(own, found,
-               [&](const Json& report_of_spec) { return report_text(report_of_spec, spec, own.is_verbose); });
+ExitCode run(const ValidateOptions& options) {
+  options.hold_to_memory();
+  const ProblemSpec spec = load_spec(options.spec, options.settings, options.memory());
+  const Json found = with_places_in(spec, [&] { return inspected(spec, options); });
+  PrintedWarnings(options).print(found["warnings"]);
+  print_answer(options, found, [&](const Json& report_of_spec) {
+    return report_text(report_of_spec, spec, options.is_verbose);
+  });
   return ExitCode::success;
 }
 

@@ -25,11 +25,12 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments& own, ThreadTeam& team) {
-  ProgressDisplay shown(own.progress, own.quiet);
-  VerifyOptions options{.sample = own.sample};
-  options.budget_seconds = own.budget;
-  options.full = own.full;
+Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments& arguments,
+                                  ThreadTeam& team) {
+  ProgressDisplay shown(arguments.progress, arguments.quiet);
+  VerifyOptions options{.sample = arguments.sample};
+  options.budget_seconds = arguments.budget;
+  options.full = arguments.full;
   options.progress = [&](const VerifyProgress& progress) {
     shown.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
   };
@@ -38,35 +39,35 @@ Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments
   return result;
 }
 
-ExitCode run(const VerifyArguments& own) {
-  if (own.full && (own.sample || own.budget))
+ExitCode run(const VerifyArguments& arguments) {
+  if (arguments.full && (arguments.sample || arguments.budget))
     throw UsageError("expected --full alone, found --sample or --budget too", "--full");
   const Clock::time_point start = Clock::now();
-  own.keep_to_memory();
-  const ClaimedFile file = read_claims(own.results, own.memory());
-  ThreadTeam team(own.threads_for("verifying needs", file.demand));
-  const Verification result = verify_with_progress(file, own, team);
-  print_verification(own, result, own.results, seconds_since(start), team.size());
-  const bool passes = result.verdict() == Verdict::holds || (result.holds() && !own.strict);
+  arguments.keep_to_memory();
+  const ClaimedFile file = read_claims(arguments.results, arguments.memory());
+  ThreadTeam team(arguments.threads_for("verifying needs", file.demand));
+  const Verification result = verify_with_progress(file, arguments, team);
+  print_verification(arguments, result, arguments.results, seconds_since(start), team.size());
+  const bool passes = result.verdict() == Verdict::holds || (result.holds() && !arguments.strict);
   return passes ? ExitCode::success : ExitCode::requirement_failed;
 }
 
 }  // namespace
 
 Run declare_verify(Options& options) {
-  const auto own = std::make_shared<VerifyArguments>();
-  declare_results(options, own->results);
-  options.option(own->sample, "--sample", "N",
+  const auto arguments = std::make_shared<VerifyArguments>();
+  declare_results(options, arguments->results);
+  options.option(arguments->sample, "--sample", "N",
                  "Look at so many cells, the same ones each time (default: all)",
                  WholeNumber<std::int64_t>{1, INT64_MAX});
-  options.option(own->budget, "--budget", "SECONDS",
+  options.option(arguments->budget, "--budget", "SECONDS",
                  "Processor time of each thread for enclosures; 0 confirms only exact posts (default: 60)",
                  seconds);
-  options.flag(own->full, "--full", "Work out again, too, what takes many looks at all cells: risks");
-  options.flag(own->strict, "--strict", "Fail if something is not confirmed");
-  declare_progress(options, own->progress);
-  declare_common(options, *own);
-  return [own] { return run(*own); };
+  options.flag(arguments->full, "--full", "Work out again, too, what takes many looks at all cells: risks");
+  options.flag(arguments->strict, "--strict", "Fail if something is not confirmed");
+  declare_progress(options, arguments->progress);
+  declare_common(options, *arguments);
+  return [arguments] { return run(*arguments); };
 }
 
 }  // namespace coordreq

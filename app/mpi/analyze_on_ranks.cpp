@@ -20,18 +20,19 @@ namespace coordreq {
 namespace {
 
 /// The spec that the first rank reads.
-ProblemSpec shared_spec(const AnalyzeOptions& own, Ranks& ranks) {
+ProblemSpec shared_spec(const AnalyzeOptions& options, Ranks& ranks) {
   SpecSource source;
   if (ranks.rank() == 0) {
-    const SpecSource written = load_source(own.specs.front(), own.memory());
+    const SpecSource written = load_source(options.specs.front(), options.memory());
     // Before anybody else knows of it: whatever is wrong is said once.
-    static_cast<void>(read_with_settings(written, own.settings));
-    source = with_settings(written, own.settings);
+    static_cast<void>(read_with_settings(written, options.settings));
+    source = with_settings(written, options.settings);
   }
   for (std::string* const part : {&source.text, &source.name, &source.folder})
     *part = text_of(ranks.from_first(bytes_of(*part)));
   ProblemSpec spec = read_spec(source);
-  if (!own.settings.empty()) spec.written = std::make_shared<WrittenSpec>();  // not all have what was written
+  if (!options.settings.empty())
+    spec.written = std::make_shared<WrittenSpec>();  // not all have what was written
   return spec;
 }
 

@@ -127,9 +127,9 @@ ExitCode run_batch_on_ranks(const AnalyzeOptions& asked) {
   }
   // A bar would be in the way of the lines that others cause.
   if (alone.progress.mode != ProgressMode::log) alone.progress.mode = ProgressMode::none;
-  return run_analyze_batch(alone, [&ranks](const std::vector<PlannedRun>& plan, const AnalyzeOptions& own,
+  return run_analyze_batch(alone, [&ranks](const std::vector<PlannedRun>& plan, const AnalyzeOptions& options,
                                            const std::function<void(std::size_t, RunOutcome)>& done) {
-    Dispatcher(plan, ranks, done).run(own);
+    Dispatcher(plan, ranks, done).run(options);
   });
 }
 

@@ -73,11 +73,11 @@ MpiRanks::~MpiRanks() = default;
 void MpiRanks::send(int to, Bytes message) {
   forget_sent();
   sent_bytes_ += static_cast<std::int64_t>(message.size());
-  Sending& own = sending_.emplace_back(Sending{std::move(message), {}});
+  Sending& sending = sending_.emplace_back(Sending{std::move(message), {}});
   for (std::size_t begin = 0;; begin += kPiece) {
-    const std::size_t bytes = std::min(kPiece, own.message.size() - begin);
-    MPI_Isend(own.message.data() + begin, static_cast<int>(bytes), MPI_BYTE, to, 0, handles_->work,
-              &own.requests.emplace_back());
+    const std::size_t bytes = std::min(kPiece, sending.message.size() - begin);
+    MPI_Isend(sending.message.data() + begin, static_cast<int>(bytes), MPI_BYTE, to, 0, handles_->work,
+              &sending.requests.emplace_back());
     if (bytes < kPiece) break;
   }
 }

@@ -70,8 +70,8 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
 
 Json warnings_json(const Warnings& warnings) {
   Json json = Json::array();
-  for (const Warning& own : warnings)
-    json.push_back({{"kind", own.kind}, {"place", own.place}, {"message", own.text}});
+  for (const Warning& warning : warnings)
+    json.push_back({{"kind", warning.kind}, {"place", warning.place}, {"message", warning.text}});
   return json;
 }
 

@@ -69,12 +69,13 @@ void relax_sides(const ProblemSpec& spec, std::vector<Relaxation>& all) {
 void relax_disturbances(const ProblemSpec& spec, std::vector<Relaxation>& all) {
   const std::size_t begin = all.size();
   for (std::size_t i = 0; i < spec.disturbances.size(); ++i) {
-    const DisturbanceSpec& own = spec.disturbances[i];
-    if (own.lower == own.upper) continue;
-    const Rational value =
-        own.lower <= 0 && own.upper >= 0 ? Rational(0) : Rational((own.lower + own.upper) / 2);
+    const DisturbanceSpec& disturbance = spec.disturbances[i];
+    if (disturbance.lower == disturbance.upper) continue;
+    const Rational value = disturbance.lower <= 0 && disturbance.upper >= 0
+                               ? Rational(0)
+                               : Rational((disturbance.lower + disturbance.upper) / 2);
     all.push_back(
-        {fmt::format("{} is {:.6g}", own.name, nearest_double(value)),
+        {fmt::format("{} is {:.6g}", disturbance.name, nearest_double(value)),
          [i, value](ProblemSpec& copy) { copy.disturbances[i].lower = copy.disturbances[i].upper = value; }});
   }
   std::vector<std::string> texts;

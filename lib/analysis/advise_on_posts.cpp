@@ -34,19 +34,19 @@ class Spreads {
     std::vector<Spread> part(stride == 0 ? 1 : all_.size(), {kFar, -kFar, kFar, -kFar});
     for (std::size_t at = 0; at < entries.size(); ++at) {
       const auto [first, last] = ends(at);
-      Spread& own =
+      Spread& spread =
           part[stride == 0 ? 0 : static_cast<std::size_t>(static_cast<std::int64_t>(at) / stride % count)];
-      own.first = std::min(own.first, first);
-      own.last = std::max(own.last, last);
-      own.least_sum = std::min(own.least_sum, first + last);
-      own.most_sum = std::max(own.most_sum, first + last);
+      spread.first = std::min(spread.first, first);
+      spread.last = std::max(spread.last, last);
+      spread.least_sum = std::min(spread.least_sum, first + last);
+      spread.most_sum = std::max(spread.most_sum, first + last);
     }
     for (std::size_t k = 0; k < all_.size(); ++k) {
-      const Spread& own = part[stride == 0 ? 0 : k];
-      all_[k].first += own.first;
-      all_[k].last += own.last;
-      all_[k].least_sum += own.least_sum;
-      all_[k].most_sum += own.most_sum;
+      const Spread& spread = part[stride == 0 ? 0 : k];
+      all_[k].first += spread.first;
+      all_[k].last += spread.last;
+      all_[k].least_sum += spread.least_sum;
+      all_[k].most_sum += spread.most_sum;
     }
   }
 
@@ -100,9 +100,9 @@ Spreads spreads_of(const TransitionTable& table, std::size_t own, std::int64_t c
 bool moves_less_than_a_cell(const Spreads& spreads, bool is_sum) {
   const double middle = is_sum ? 1 : 0;
   const double slack = is_sum ? kSlack : 0;
-  return std::all_of(spreads.all().begin(), spreads.all().end(), [&](const Spread& own) {
-    const bool is_near = own.first >= -1 - slack && own.last < 2 - slack;
-    return is_near && own.least_sum - middle > -2 + slack && own.most_sum - middle < 2 - slack;
+  return std::all_of(spreads.all().begin(), spreads.all().end(), [&](const Spread& spread) {
+    const bool is_near = spread.first >= -1 - slack && spread.last < 2 - slack;
+    return is_near && spread.least_sum - middle > -2 + slack && spread.most_sum - middle < 2 - slack;
   });
 }
 
@@ -122,7 +122,7 @@ bool may_move_less_than_a_cell(const TransitionTable& table, std::size_t own, st
 /// Half-open cells that stay where they are lose nothing.
 bool stands_still(const Spreads& spreads) {
   return std::all_of(spreads.all().begin(), spreads.all().end(),
-                     [](const Spread& own) { return own.first == 0 && own.last == 0; });
+                     [](const Spread& spread) { return spread.first == 0 && spread.last == 0; });
 }
 
 std::string amount(const Rational& value, const std::string& unit) {
@@ -174,9 +174,9 @@ std::string blocked_at(const AnalysisContext& context, std::size_t i, const Spre
   const double slack = context.abstraction->tables[i].is_sum() ? kSlack : 0;
   std::vector<bool> may_leave;
   for (std::size_t k = 0; k < spreads.all().size(); ++k) {
-    const Spread& own = spreads.all()[k];
+    const Spread& spread = spreads.all()[k];
     const auto at = static_cast<double>(k);
-    may_leave.push_back(above ? at + own.last >= count - slack : at + own.first < slack);
+    may_leave.push_back(above ? at + spread.last >= count - slack : at + spread.first < slack);
   }
   if (std::find(may_leave.begin(), may_leave.end(), true) == may_leave.end()) return "";
   const BlockedPairs blocked = count_blocked(context, i, above, may_leave);

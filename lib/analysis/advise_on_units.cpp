@@ -113,15 +113,15 @@ void advise_on_derivative(const SystemSpec& spec, std::size_t i, const std::vect
                           Warnings& found) {
   const StateSpec& state = spec.states[i];
   const std::optional<UnitValue> time = unit_value(spec.dynamics.unit);
-  const Known& own = slots[spec.state_slot(i)];
-  if (!time || !own) return;
+  const Known& known_unit = slots[spec.state_slot(i)];
+  if (!time || !known_unit) return;
   const Program& equation = spec.dynamics.equations[i];
   const std::vector<Known> nodes = measures_of_nodes(equation, slots);
   std::vector<std::uint32_t> terms;
   add_terms(equation, static_cast<std::uint32_t>(equation.nodes.size() - 1), terms);
   for (const std::uint32_t term : terms) {
     const Known& known = nodes[term];
-    if (!known || known->is_number || is_same(known->unit, own->unit / *time)) continue;
+    if (!known || known->is_number || is_same(known->unit, known_unit->unit / *time)) continue;
     found.push_back(
         {"units", spec.dynamics.pointer_of(state.name, i),
          fmt::format("{} is in {} and time in {}, so that its derivative is in {}/{}, but {} is in {}",

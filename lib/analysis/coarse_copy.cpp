@@ -32,8 +32,8 @@ void coarsen(ProblemSpec& spec, std::int64_t factor) {
 }
 
 void leave_only(std::size_t partition, ProblemSpec& spec) {
-  CoordinationSpec& own = spec.coordination;
-  own = CoordinationSpec{.partitions = {own.partitions[partition]}, .max_delay = 1};
+  CoordinationSpec& coordination = spec.coordination;
+  coordination = CoordinationSpec{.partitions = {coordination.partitions[partition]}, .max_delay = 1};
   spec.network.reset();
   spec.risk.reset();
   spec.silence.reset();

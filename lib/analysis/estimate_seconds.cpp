@@ -35,15 +35,15 @@ struct Measured {
 };
 
 double cells_of(const ProblemSpec& spec) {
-  return std::accumulate(spec.states.begin(), spec.states.end(), 1.0, [](double cells, const StateSpec& own) {
-    return cells * static_cast<double>(own.grid.count);
-  });
+  return std::accumulate(
+      spec.states.begin(), spec.states.end(), 1.0,
+      [](double cells, const StateSpec& state) { return cells * static_cast<double>(state.grid.count); });
 }
 
 double entries_of(const Model& model) {
   const auto& shapes = model.shapes();
   return std::accumulate(shapes.begin(), shapes.end(), 0.0,
-                         [](double sum, const TableShape& own) { return sum + own.entries; });
+                         [](double sum, const TableShape& shape) { return sum + shape.entries; });
 }
 
 /// Processor time of all threads of this process, in seconds.

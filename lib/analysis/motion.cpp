@@ -41,8 +41,8 @@ std::vector<Ends> ends_of(const SystemSpec& spec) {
     const auto [least, most] = std::minmax_element(input.values.begin(), input.values.end());
     all.push_back({nearest_double(*least), nearest_double(*most)});
   }
-  for (const DisturbanceSpec& own : spec.disturbances)
-    all.push_back({nearest_double(own.lower), nearest_double(own.upper)});
+  for (const DisturbanceSpec& disturbance : spec.disturbances)
+    all.push_back({nearest_double(disturbance.lower), nearest_double(disturbance.upper)});
   return all;
 }
 

@@ -18,7 +18,7 @@ namespace {
 std::vector<std::size_t> alike_in_classes(const std::vector<AbstractAgent>& agents,
                                           const std::vector<InputClass>& classes) {
   std::set<std::vector<std::int32_t>> all;
-  for (const InputClass& own : classes) all.insert(own.inputs());
+  for (const InputClass& input_class : classes) all.insert(input_class.inputs());
   const auto are_alike = [&](const AbstractAgent& a, const AbstractAgent& b) {
     return std::ranges::all_of(all, [&](std::vector<std::int32_t> inputs) {
       for (std::int32_t& input : inputs) input = exchanged(a.inputs, b.inputs, input);
@@ -49,8 +49,8 @@ std::vector<const CellSet*> safe_sets(const AnalysisContext& context) {
 /// Agents that can be exchanged.
 std::vector<AbstractAgent> find_agents_alike(const AnalysisContext& context) {
   std::vector<std::vector<std::int32_t>> inputs;
-  for (const InputClass& own : agent_classes(context.spec, context.abstraction->inputs))
-    inputs.push_back(own.inputs());
+  for (const InputClass& input_class : agent_classes(context.spec, context.abstraction->inputs))
+    inputs.push_back(input_class.inputs());
   const std::vector<AbstractAgent> all = abstract_agents(*context.abstraction, inputs);
   return find_like_agents(*context.abstraction, all, safe_sets(context));
 }

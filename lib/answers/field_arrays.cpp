@@ -139,14 +139,14 @@ template void mark_unsafe(const LevelMap&, const CellOrder&, std::uint64_t, std:
 ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order) {
   return {ElementType::uint8, [&sets, &order](std::uint64_t begin, std::uint64_t count, void* out) {
             const auto cells = static_cast<std::uint64_t>(order.cells());
-            auto* place = static_cast<std::uint8_t*>(out);
+            auto* target = static_cast<std::uint8_t*>(out);
             while (count > 0) {
               const std::uint64_t first = begin % cells;
               const std::uint64_t here = std::min(count, cells - first);
-              fill_members(sets[begin / cells], order, first, here, place);
+              fill_members(sets[begin / cells], order, first, here, target);
               begin += here;
               count -= here;
-              place += here;
+              target += here;
             }
           }};
 }
@@ -181,7 +181,7 @@ ResultArray trigger_array(const DelayLayers& layers, const LevelMap& collision_t
 
 ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order) {
   return {ElementType::float32, [&](std::uint64_t begin, std::uint64_t count, void* out) {
-            auto* place = static_cast<float*>(out);
+            auto* target = static_cast<float*>(out);
             while (count > 0) {
               const std::uint64_t cells = convention.agents.front().freedom.size();
               const ZeroedArray<float>& freedom = convention.agents[begin / cells].freedom;
@@ -191,11 +191,11 @@ ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& 
                                    const float* source = freedom.data() + order.place(run);
                                    const std::int64_t step = order.step(run);
                                    for (std::int64_t i = 0; i < run.count; ++i)
-                                     place[run.offset + i] = source[i * step];
+                                     target[run.offset + i] = source[i * step];
                                  });
               begin += here;
               count -= here;
-              place += here;
+              target += here;
             }
           }};
 }

@@ -162,14 +162,14 @@ ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> parts) 
   }
   return {type,
           [length, parts = std::move(parts), type](std::uint64_t begin, std::uint64_t count, void* out) {
-            auto* place = static_cast<std::byte*>(out);
+            auto* target = static_cast<std::byte*>(out);
             while (count > 0) {
               const std::uint64_t first = begin % length;
               const std::uint64_t here = std::min(count, length - first);
-              parts[begin / length].fill(first, here, place);
+              parts[begin / length].fill(first, here, target);
               begin += here;
               count -= here;
-              place += here * element_size(type);
+              target += here * element_size(type);
             }
           }};
 }

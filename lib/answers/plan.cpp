@@ -164,9 +164,9 @@ void run_stages(const std::vector<Stage>& stages, Answers& answers, const StageW
                 const PlanWatch& watch) {
   for (const Stage& stage : stages) {
     if (watch.enter) watch.enter(stage.name);
-    StageWork own = work;
-    own.store = watch.store ? watch.store(stage.name) : nullptr;
-    stage.run(answers, own);
+    StageWork inner_work = work;
+    inner_work.store = watch.store ? watch.store(stage.name) : nullptr;
+    stage.run(answers, inner_work);
   }
 }
 

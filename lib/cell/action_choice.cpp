@@ -67,10 +67,10 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
                                   return values[at(cell)];
                                 };
                               }};
-  for (const AnswerPolicy& own : problem.policies) cell_policies_.push_back(own.make(context));
-  for (InputClass& own : classes_) {
-    own.tabulate();
-    class_parts_.push_back(own.parts());
+  for (const AnswerPolicy& answer : problem.policies) cell_policies_.push_back(answer.make(context));
+  for (InputClass& input_class : classes_) {
+    input_class.tabulate();
+    class_parts_.push_back(input_class.parts());
   }
   for (const AgentSpec& agent : problem.spec->agents) {
     prefer_.emplace_back();
@@ -106,17 +106,17 @@ void ActionChooser::find_nominal() {
 
 std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<const Rational> measured,
                                                   Turn turn, NextStates& next, RandomStream& random) {
-  CellPolicy& own = *cell_policies_[turn.policy];
+  CellPolicy& cell_policy = *cell_policies_[turn.policy];
   const AnswerPolicy& policy = problem_.policies[turn.policy];
   compared_ = policy.is_anywhere ? problem_.values.at(policy.delay) : delay_;
   const Numbers& admissible = delay_[at(cell)] < 0 ? kNoInputs : inputs_.of(cell);
-  const Numbers& together = own.together(cell, admissible);
+  const Numbers& together = cell_policy.together(cell, admissible);
   if (together.empty() && !policy.is_anywhere) return std::nullopt;
   choices_.clear();
   if (turn.countdown == 0) {
     choices_.push_back(together);
   } else {
-    choices_ = own.alone(cell, turn.countdown, together, classes_);
+    choices_ = cell_policy.alone(cell, turn.countdown, together, classes_);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (choices_[c].empty()) return std::nullopt;
       for (std::int64_t& a : choices_[c]) a = class_parts_[c][at(a)];

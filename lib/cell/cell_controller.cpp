@@ -137,32 +137,32 @@ const std::vector<bool>& CellController::joint_inputs(std::int64_t cell) {
 }
 
 std::vector<bool> CellController::joint_inputs(const AnswerPolicy& policy, std::int64_t cell) {
-  Part& own = part(policy, 0);
+  Part& one_part = part(policy, 0);
   const CellPolicy::Numbers admissible = numbers_of(joint_inputs(cell));
-  if (admissible.empty() || !own.policy->holds(cell)) return joint_inputs(cell);
+  if (admissible.empty() || !one_part.policy->holds(cell)) return joint_inputs(cell);
   std::vector<bool> result(joint_inputs(cell).size(), false);
-  for (const std::int64_t u : own.policy->together(cell, admissible)) result[at(u)] = true;
+  for (const std::int64_t u : one_part.policy->together(cell, admissible)) result[at(u)] = true;
   return result;
 }
 
 ActionSets CellController::actions(const AnswerPolicy& policy, std::size_t partition, std::int64_t cell,
                                    std::int32_t countdown) {
-  Part& own = part(policy, partition);
+  Part& one_part = part(policy, partition);
   const PartitionSpec& spec = results_.spec().coordination.partitions[partition];
   const CellBlock block = one_cell(results_.grid(), cell);
   const auto path = [&](std::size_t c) { return policy.stored(results_.spec(), spec, c); };
   const bool is_stored = policy.stored != nullptr && results_.has(path(0));
   ActionSets sets;
-  for (std::size_t c = 0; is_stored && c < own.classes.size(); ++c)
-    sets.push_back(unpacked(results_.bits(path(c), block), own.classes[c].actions()));
+  for (std::size_t c = 0; is_stored && c < one_part.classes.size(); ++c)
+    sets.push_back(unpacked(results_.bits(path(c), block), one_part.classes[c].actions()));
   if (is_stored) return sets;
-  for (const InputClass& one : own.classes) sets.emplace_back(at(one.actions()), false);
+  for (const InputClass& one : one_part.classes) sets.emplace_back(at(one.actions()), false);
   const CellPolicy::Numbers admissible = numbers_of(joint_inputs(cell));
   const bool is_asked =
       policy.is_anywhere ? results_.members(paths::kSafe, block).front() != 0 : !admissible.empty();
-  if (!is_asked || !own.policy->holds(cell)) return sets;
-  const CellPolicy::Numbers& together = own.policy->together(cell, admissible);
-  const auto actions = own.policy->alone(cell, countdown, together, own.classes);
+  if (!is_asked || !one_part.policy->holds(cell)) return sets;
+  const CellPolicy::Numbers& together = one_part.policy->together(cell, admissible);
+  const auto actions = one_part.policy->alone(cell, countdown, together, one_part.classes);
   for (std::size_t c = 0; c < sets.size(); ++c) {
     for (const std::int64_t a : actions[c]) sets[c][at(a)] = true;
   }
@@ -170,20 +170,20 @@ ActionSets CellController::actions(const AnswerPolicy& policy, std::size_t parti
 }
 
 CellController::Part& CellController::part(const AnswerPolicy& policy, std::size_t partition) {
-  const auto [place, is_new] = parts_.try_emplace({policy.name, policy.is_by_agent ? 0 : partition});
-  Part& own = place->second;
-  if (!is_new) return own;
+  const auto [entry, is_new] = parts_.try_emplace({policy.name, policy.is_by_agent ? 0 : partition});
+  Part& part = entry->second;
+  if (!is_new) return part;
   const ProblemSpec& spec = results_.spec();
-  own.classes = policy.is_by_agent
-                    ? agent_classes(spec, results_.inputs())
-                    : input_classes(spec, results_.inputs(), spec.coordination.partitions[partition]);
-  own.policy =
+  part.classes = policy.is_by_agent
+                     ? agent_classes(spec, results_.inputs())
+                     : input_classes(spec, results_.inputs(), spec.coordination.partitions[partition]);
+  part.policy =
       policy.make({.spec = &spec,
                    .partition = &spec.coordination.partitions[partition],
                    .tables = this,
                    .posts = &posts_,
                    .values = [this, partition](const auto& path) { return values(path, partition); }});
-  return own;
+  return part;
 }
 
 std::int64_t CellController::length(const std::string& scale) const {
@@ -200,9 +200,9 @@ CellValue CellController::values(const std::string& path, std::size_t partition)
   const bool is_of_partition = field.axes.front() == "/partition";
   const auto leading = is_of_partition ? ResultsReader::Leading(partition) : std::nullopt;
   return [this, &field, leading, &known = values_[{path, leading.value_or(0)}]](std::int64_t cell) {
-    const auto [place, is_new] = known.try_emplace(cell, 0);
-    if (is_new) place->second = results_.values(field, leading, one_cell(results_.grid(), cell)).front();
-    return place->second;
+    const auto [entry, is_new] = known.try_emplace(cell, 0);
+    if (is_new) entry->second = results_.values(field, leading, one_cell(results_.grid(), cell)).front();
+    return entry->second;
   };
 }
 

@@ -31,7 +31,7 @@ class Explainer {
         posts_(*sets_.context().abstraction),
         classes_(input_classes(results.spec(), results.inputs(),
                                results.spec().coordination.partitions[partition])) {
-    for (InputClass& own : classes_) own.tabulate();
+    for (InputClass& input_class : classes_) input_class.tabulate();
   }
 
   DelayExplanation run(std::int64_t cell, const std::vector<Rational>& state) {
@@ -138,25 +138,25 @@ class Explainer {
   [[nodiscard]] std::int32_t steps_after(const CellPost& post) {
     if (post.blocked != CellPost::Blocked::no) return 0;
     if (post.all_left) return kNever;
-    const auto [place, is_new] = known_.try_emplace(post.box, kNever);
-    if (!is_new) return place->second;
-    for_each_cell(posts_.grid(), post.box, [&, &worst = place->second](std::int64_t next) {
+    const auto [entry, is_new] = known_.try_emplace(post.box, kNever);
+    if (!is_new) return entry->second;
+    for_each_cell(posts_.grid(), post.box, [&, &worst = entry->second](std::int64_t next) {
       const std::int32_t delay = delay_at(next);
       worst = std::min(worst, delay == kNever ? kNever : std::max(delay, -1) + 1);
       return worst > 0;
     });
-    return place->second;
+    return entry->second;
   }
 
   /// For each class and each of its actions the worst that the others can make of it.
   void find_remedies(std::int64_t cell, DelayExplanation& found) {
     std::vector<std::vector<std::int32_t>> worst;
-    for (const InputClass& own : classes_) worst.emplace_back(at(own.actions()), kNever);
+    for (const InputClass& input_class : classes_) worst.emplace_back(at(input_class.actions()), kNever);
     posts_.move_to(cell);
     for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
       const bool is_choice = std::equal(classes_.begin(), classes_.end(), found.actions.begin(),
-                                        [u](const InputClass& own, const std::vector<bool>& actions) {
-                                          return actions[at(own.action(u))];
+                                        [u](const InputClass& input_class, const std::vector<bool>& actions) {
+                                          return actions[at(input_class.action(u))];
                                         });
       if (!is_choice) continue;
       const bool is_forbidden = controller_.forbids(cell, u);

@@ -18,8 +18,8 @@ constexpr std::int32_t kBeyondUnsafe = -2;
 constexpr const char* kLabel = "pair";
 
 std::string label_of(const StateReader& reader, std::int64_t row) {
-  for (const StateReader::Extra& own : reader.extra()) {
-    if (own.name == kLabel && !own.text().empty()) return own.text();
+  for (const StateReader::Extra& extra : reader.extra()) {
+    if (extra.name == kLabel && !extra.text().empty()) return extra.text();
   }
   return std::to_string(row);
 }

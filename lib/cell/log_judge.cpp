@@ -169,7 +169,7 @@ bool LogJudge::is_over(std::int64_t cell) {
 /// Judges the actions by the cells of K that the state may be in; outside K there is no promise.
 void LogJudge::judge_actions(JudgedRow& row) {
   take_actions(row);
-  const bool is_complete = std::all_of(values_.begin(), values_.end(), [](Index own) { return !!own; });
+  const bool is_complete = std::all_of(values_.begin(), values_.end(), [](Index index) { return !!index; });
   const Index u = joint_input();
   row.is_reckless.assign(classes_.size(), std::nullopt);
   for (const std::int64_t cell : row.place.cells) {

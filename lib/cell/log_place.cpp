@@ -45,7 +45,7 @@ LogPlace LogPlaces::place(const LogRow& row, const std::vector<std::int64_t>& be
     place.indices.push_back(indices(i, place.state[i]));
   }
   place.location = locate(grid, place.state);
-  for (const Indices& own : kept) add_cells(place, row.is_given, own);
+  for (const Indices& indices : kept) add_cells(place, row.is_given, indices);
   return place;
 }
 
@@ -82,10 +82,10 @@ void LogPlaces::add_cells(LogPlace& place, const std::vector<bool>& is_given, co
   const UniformGrid& grid = posts_.grid();
   Indices cells = {0};
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Indices& own = is_given[i] ? place.indices[i] : Indices{kept[i]};
+    const Indices& indices = is_given[i] ? place.indices[i] : Indices{kept[i]};
     Indices longer;
     for (const std::int64_t cell : cells) {
-      for (const std::int64_t k : own) {
+      for (const std::int64_t k : indices) {
         if (k >= 0 && k < grid[i].count) longer.push_back(cell + k * grid.stride(i));
       }
     }

@@ -54,19 +54,19 @@ std::optional<LogRow> LogReader::next() {
   LogRow row{.place = states_.place(), .state = std::move(*state)};
   for (std::size_t i = 0; i < row.state.size(); ++i) row.is_given.push_back(states_.is_given(i));
   row.inputs.resize(inputs_.size());
-  for (const StateReader::Extra& own : states_.extra()) take(own, row);
+  for (const StateReader::Extra& extra : states_.extra()) take(extra, row);
   return row;
 }
 
-void LogReader::take(const StateReader::Extra& own, LogRow& row) const {
-  const std::optional<std::size_t> input = input_of(own.name);
-  if (!input && own.name != kTime && own.name != kConnected) return;
-  const std::string text = own.text();
+void LogReader::take(const StateReader::Extra& extra, LogRow& row) const {
+  const std::optional<std::size_t> input = input_of(extra.name);
+  if (!input && extra.name != kTime && extra.name != kConnected) return;
+  const std::string text = extra.text();
   if (text.empty()) return;
-  const std::string place = row.place + ", " + own.name;
+  const std::string place = row.place + ", " + extra.name;
   if (input) {
     row.inputs[*input] = parse_value(text, place);
-  } else if (own.name == kTime) {
+  } else if (extra.name == kTime) {
     row.time = parse_value(text, place);
   } else if (text == "0" || text == "1") {
     row.connected = text == "1";

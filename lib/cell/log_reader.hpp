@@ -37,7 +37,7 @@ class LogReader {
 
  private:
   void check_names() const;
-  void take(const StateReader::Extra& own, LogRow& row) const;
+  void take(const StateReader::Extra& extra, LogRow& row) const;
   [[nodiscard]] std::optional<std::size_t> input_of(const std::string& name) const;
 
   std::vector<std::string> inputs_;

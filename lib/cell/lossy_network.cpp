@@ -25,9 +25,9 @@ std::uint64_t in_parts(const Rational& p) {
 /// Whether there are probabilities in the ranges that are 1 in sum.
 [[maybe_unused]] bool can_be_one(const std::vector<ProbabilityRange>& ranges) {
   Rational least = 0, most = 0;
-  for (const ProbabilityRange& own : ranges) {
-    least += own.low;
-    most += own.high;
+  for (const ProbabilityRange& range : ranges) {
+    least += range.low;
+    most += range.high;
   }
   return least <= 1 && 1 <= most;
 }
@@ -39,9 +39,9 @@ std::vector<Rational> likeliest(const std::vector<ProbabilityRange>& ranges) {
   std::vector<Rational> result;
   std::vector<std::pair<Rational, std::size_t>> rooms;  // on either side, ascending
   Rational rest = 1;
-  for (const ProbabilityRange& own : ranges) {
-    rooms.emplace_back((own.high - own.low) / 2, result.size());
-    result.emplace_back((own.low + own.high) / 2);
+  for (const ProbabilityRange& range : ranges) {
+    rooms.emplace_back((range.high - range.low) / 2, result.size());
+    result.emplace_back((range.low + range.high) / 2);
     rest -= result.back();
   }
   std::sort(rooms.begin(), rooms.end());
@@ -63,12 +63,13 @@ LossyNetwork::LossyNetwork(const NetworkSpec& network) : modes_(network.modes.si
     ranges[at(from)].push_back(network.probabilities[t]);
   }
   for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
-    Mode& own = modes_[mode];
-    own.partition = &network.modes[mode].partition;
-    own.is_connected = own.partition->classes.size() == 1;
+    Mode& one_mode = modes_[mode];
+    one_mode.partition = &network.modes[mode].partition;
+    one_mode.is_connected = one_mode.partition->classes.size() == 1;
     Rational sum = 0;
     const std::vector<Rational> probabilities = likeliest(ranges[mode]);
-    for (std::size_t i = 0; i < own.next.size(); ++i) own.next[i].second = in_parts(sum += probabilities[i]);
+    for (std::size_t i = 0; i < one_mode.next.size(); ++i)
+      one_mode.next[i].second = in_parts(sum += probabilities[i]);
   }
 }
 

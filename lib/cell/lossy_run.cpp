@@ -17,22 +17,22 @@ std::vector<std::shared_ptr<ActionChooser>> ClosedLoop::choosers_of_modes() {
   std::map<std::string, std::shared_ptr<ActionChooser>> known;
   if (problem_.network == nullptr) return result;
   for (std::size_t mode = 0; mode < problem_.network->modes().size(); ++mode) {
-    const LossyNetwork::Mode& own = problem_.network->modes()[mode];
-    const bool is_safest = own.is_connected && !problem_.mode_values.empty();
+    const LossyNetwork::Mode& network_mode = problem_.network->modes()[mode];
+    const bool is_safest = network_mode.is_connected && !problem_.mode_values.empty();
     LoopProblem of_mode = problem_;
-    of_mode.partition = own.partition;
+    of_mode.partition = network_mode.partition;
     of_mode.policies.resize(1);
     if (is_safest) {
       of_mode.policies.front() = safest_policy(problem_.policies.front().delay);
       for (const auto& [path, cells] : problem_.mode_values[mode]) of_mode.values[path] = cells;
     }
-    if (!own.is_connected && problem_.spec->silence) {
+    if (!network_mode.is_connected && problem_.spec->silence) {
       const std::string delay = of_mode.policies.front().delay;
       of_mode.policies = silence_policies(*problem_.spec);
       of_mode.policies.front().delay = delay;
     }
     std::shared_ptr<ActionChooser>& chooser =
-        known[own.partition->canonical + (is_safest ? " " + std::to_string(mode) : "")];
+        known[network_mode.partition->canonical + (is_safest ? " " + std::to_string(mode) : "")];
     if (!chooser) chooser = std::make_shared<ActionChooser>(of_mode, options_.policy, dynamics_);
     result.push_back(chooser);
   }

@@ -36,13 +36,13 @@ const NextStates::Value& NextStates::state(std::size_t i, std::int64_t u) {
     const auto input = static_cast<std::size_t>(j);
     key += inputs.index(u, input) * inputs.stride(input);
   }
-  const auto [place, is_new] = values_[i].try_emplace(key);
-  if (!is_new) return place->second;
+  const auto [entry, is_new] = values_[i].try_emplace(key);
+  if (!is_new) return entry->second;
   for (const std::int32_t j : dynamics_->dependencies(i).inputs) {
     const auto input = static_cast<std::size_t>(j);
     slots_[spec_->input_slot(input)] = inputs[input].values[static_cast<std::size_t>(inputs.index(u, input))];
   }
-  Value& result = place->second;
+  Value& result = entry->second;
   if (const std::optional<Rational> flow = next(i, u)) {
     const GridDimension& dimension = abstraction_->grid[i];
     result.known = true;

@@ -124,21 +124,21 @@ class LoadedTables : public ByteTables {
       if (!has_silent_table(spec, partition, c)) continue;
       const std::string path = paths::silent(spec, partition, c);
       const Field& field = results.field(path);
-      Table& own = tables_[path];
-      own.bytes = results.bytes(field);
+      Table& table = tables_[path];
+      table.bytes = results.bytes(field);
       for (const std::string& axis : field.axes)
-        own.shape.push_back(lengths_[axis] = static_cast<std::int64_t>(results.length(axis)));
+        table.shape.push_back(lengths_[axis] = static_cast<std::int64_t>(results.length(axis)));
     }
   }
 
   [[nodiscard]] std::int64_t length(const std::string& scale) const override { return lengths_.at(scale); }
   [[nodiscard]] std::vector<std::uint8_t> bytes(const std::string& path,
                                                 const std::vector<std::int64_t>& place) const override {
-    const Table& own = tables_.at(path);
+    const Table& table = tables_.at(path);
     std::int64_t row = 0;
-    for (std::size_t i = 0; i < place.size(); ++i) row = row * own.shape[i] + place[i];
-    const auto first = own.bytes.begin() + static_cast<std::ptrdiff_t>(row * own.shape.back());
-    return {first, first + static_cast<std::ptrdiff_t>(own.shape.back())};
+    for (std::size_t i = 0; i < place.size(); ++i) row = row * table.shape[i] + place[i];
+    const auto first = table.bytes.begin() + static_cast<std::ptrdiff_t>(row * table.shape.back());
+    return {first, first + static_cast<std::ptrdiff_t>(table.shape.back())};
   }
 
   /// Bytes of them.

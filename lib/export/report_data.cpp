@@ -139,8 +139,8 @@ double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
   constexpr double kBytesOfNumber = 350;
   const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
   double steps = 0;
-  for (const ResultRequirement& own : read_requirement_values(results.spec(), results))
-    steps += own.path ? static_cast<double>(own.path->cell.size()) : 0;
+  for (const ResultRequirement& requirement : read_requirement_values(results.spec(), results))
+    steps += requirement.path ? static_cast<double>(requirement.path->cell.size()) : 0;
   constexpr double kBytesOfPoint = 100;  // a number in JSON, its text, and where it stands in a set of cells
   return results.reading_bytes() + kBytesOfValue * std::min(cells, static_cast<double>(limits.values)) +
          kCopies * packed + kBytesOfPoint * points + kBytesOfNumber * numbers * steps + kTemplate;

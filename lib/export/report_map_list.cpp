@@ -36,7 +36,7 @@ ReportMap number_map(const ResultsReader& results, const Field& field, Leading l
   }
   if (!field.shown.map.legend) return map;
   const auto found = std::make_shared<std::set<std::int32_t>>();
-  map.legend = [&field, found](Json& own) { field.shown.map.legend(*found, own); };
+  map.legend = [&field, found](Json& entry) { field.shown.map.legend(*found, entry); };
   map.read = [read = std::move(map.read), found](const CellBlock& block) {
     std::vector<std::int32_t> values = read(block);
     found->insert(values.begin(), values.end());

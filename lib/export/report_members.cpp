@@ -34,9 +34,9 @@ std::vector<std::int32_t> MemberMap::read(const CellBlock& block) {
 
 std::int32_t MemberMap::number(std::uint64_t set) {
   if (!fits()) return 0;
-  const auto [place, is_new] = numbers_.emplace(set, static_cast<std::int32_t>(sets_.size()));
+  const auto [entry, is_new] = numbers_.emplace(set, static_cast<std::int32_t>(sets_.size()));
   if (is_new) sets_.push_back(set);
-  return place->second;
+  return entry->second;
 }
 
 void MemberMap::halve() {

@@ -12,8 +12,8 @@ namespace {
 TableSelection selection_of(const ResultsReader& results, const ToleranceQuestion& question) {
   TableSelection selection{.slices = question.given, .projections = {}, .partition = question.partition};
   for (std::size_t i = 0; i < results.grid().size(); ++i) {
-    const auto is_over = [i](const ToleranceQuestion::Over& own) { return own.state == i; };
-    const auto is_given = [i](const TableSelection::Slice& own) { return own.dimension == i; };
+    const auto is_over = [i](const ToleranceQuestion::Over& over) { return over.state == i; };
+    const auto is_given = [i](const TableSelection::Slice& slice) { return slice.dimension == i; };
     if (std::none_of(question.over.begin(), question.over.end(), is_over) &&
         std::none_of(question.given.begin(), question.given.end(), is_given))
       selection.projections.push_back({i, false});
@@ -26,18 +26,18 @@ TableSelection selection_of(const ResultsReader& results, const ToleranceQuestio
 class Tolerated {
  public:
   Tolerated(const ResultsReader& results, const ToleranceQuestion& question) : question_(question) {
-    for (const ToleranceQuestion::Over& own : question.over)
-      counts_.push_back(results.grid()[own.state].count);
+    for (const ToleranceQuestion::Over& over : question.over)
+      counts_.push_back(results.grid()[over.state].count);
     counts_.resize(2, 1);
     holds_.assign(static_cast<std::size_t>(counts_[0] * counts_[1]), false);
     const CellTable table(results, selection_of(results, question));
     std::size_t column = 0;
     while (table.columns()[column].field->path != "/delay") ++column;
     std::vector<std::size_t> places;  // of the states asked about, in a row
-    for (const ToleranceQuestion::Over& own : question.over) {
+    for (const ToleranceQuestion::Over& over : question.over) {
       const auto& kept = table.dimensions();
       places.push_back(
-          static_cast<std::size_t>(std::find(kept.begin(), kept.end(), own.state) - kept.begin()));
+          static_cast<std::size_t>(std::find(kept.begin(), kept.end(), over.state) - kept.begin()));
     }
     table.for_each_row([&](const std::vector<std::int64_t>& index, const std::vector<std::int32_t>& values) {
       const std::int64_t second = places.size() > 1 ? rank(1, index[places[1]]) : 0;

@@ -113,12 +113,12 @@ class TableBuilder {
     for (const std::int32_t j : dependencies_.moving) {
       const GridDimension& dimension = grid_[at(j)];
       if (dimension.below != Outside::stop && dimension.above != Outside::stop) continue;
-      const Dependencies& own = dynamics_.dependencies(at(j));
-      const AffinePost post{.grid = grid_, .moving = own.moving, .state = at(j)};
+      const Dependencies& dependencies = dynamics_.dependencies(at(j));
+      const AffinePost post{.grid = grid_, .moving = dependencies.moving, .state = at(j)};
       LimitedState& one = limited.emplace_back();
-      for (const std::int32_t k : own.moving) {
-        const auto place = std::find(dependencies_.moving.begin(), dependencies_.moving.end(), k);
-        one.places.push_back(static_cast<std::size_t>(place - dependencies_.moving.begin()));
+      for (const std::int32_t k : dependencies.moving) {
+        const auto found = std::find(dependencies_.moving.begin(), dependencies_.moving.end(), k);
+        one.places.push_back(static_cast<std::size_t>(found - dependencies_.moving.begin()));
       }
       one.last = dimension.count - 1;
       const auto rows = dynamics_.tube_rows(at(j), slots, Limits::ignored);

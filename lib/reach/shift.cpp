@@ -39,8 +39,8 @@ bool derivative_is_one(const SystemSpec& spec, std::size_t state) {
 }
 
 bool flow_shifts(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state) {
-  const StateSpec& own = spec.states[state];
-  if (own.below == Outside::stop || own.above == Outside::stop) return false;
+  const StateSpec& one_state = spec.states[state];
+  if (one_state.below == Outside::stop || one_state.above == Outside::stop) return false;
   // A parameter has the equation 0, which mentions nothing.
   return std::none_of(dependencies.moving.begin(), dependencies.moving.end(), [&](std::int32_t j) {
     return mentions(spec.dynamics.equations[at(j)], spec.state_slot(state));

@@ -126,13 +126,13 @@ std::vector<std::size_t> StateEnclosure::served(const std::vector<std::size_t>& 
 
 /// The cells that measure enclosures of a state, by its position among the states that move.
 EndCells StateEnclosure::cells_of(std::size_t state) const {
-  const StateSpec& own = spec_->states[state];
-  const auto place =
+  const StateSpec& one_state = spec_->states[state];
+  const auto found =
       std::find(dependencies_.moving.begin(), dependencies_.moving.end(), static_cast<std::int32_t>(state));
-  return {.state = static_cast<std::size_t>(place - dependencies_.moving.begin()),
-          .first = nearest_double(own.grid.first),
-          .step = nearest_double(own.grid.step),
-          .reach = nearest_double(own.measurement_error),
+  return {.state = static_cast<std::size_t>(found - dependencies_.moving.begin()),
+          .first = nearest_double(one_state.grid.first),
+          .step = nearest_double(one_state.grid.step),
+          .reach = nearest_double(one_state.measurement_error),
           .placed = !shifts_ && !terms_};
 }
 
@@ -160,19 +160,19 @@ StateEnclosure::Result StateEnclosure::result_of_map() const {
 }
 
 StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {
-  const StateSpec& own = spec_->states[state];
-  const auto place =
+  const StateSpec& one_state = spec_->states[state];
+  const auto found =
       std::find(dependencies_.moving.begin(), dependencies_.moving.end(), static_cast<std::int32_t>(state));
-  const auto position = static_cast<std::size_t>(place - dependencies_.moving.begin());
+  const auto position = static_cast<std::size_t>(found - dependencies_.moving.begin());
   if (found_->status == FlowEnclosure::Status::ok) {
-    return {.value = within_limits(own, found_->end[position]),
-            .tube = within_limits(own, found_->tube[position]),
+    return {.value = within_limits(one_state, found_->end[position]),
+            .tube = within_limits(one_state, found_->tube[position]),
             .drift = found_->drift[position]};
   }
   Result result{
       .status = found_->status, .culprit = at(dependencies_.moving[found_->culprit]), .rate = found_->rate};
   // Without an enclosure a post is everything, which blocks the pair where this state has an unsafe side.
-  const bool can_block = own.below == Outside::unsafe || own.above == Outside::unsafe;
+  const bool can_block = one_state.below == Outside::unsafe || one_state.above == Outside::unsafe;
   for (std::size_t k = 0; can_block && k < found_->tube.size(); ++k) {
     if (shifts_ && k == position) continue;  // its box is not known
     const StateSpec& other = spec_->states[at(dependencies_.moving[k])];

@@ -176,17 +176,18 @@ void add_values(const ResultsReader& before, const ResultsReader& after, const C
     for (const EntryPair& pair : common_entries(before, after, field, result))
       all.emplace_back(begun).entry = pair;
   }
-  for (ValueComparison& own : all) {
-    compare_values(before, after, options, field, own);
-    result.values.push_back(std::move(own));
+  for (ValueComparison& comparison : all) {
+    compare_values(before, after, options, field, comparison);
+    result.values.push_back(std::move(comparison));
   }
 }
 
 using Requirements = std::vector<ResultRequirement>;
 
 const ResultRequirement* find_requirement(const Requirements& all, const std::string& name) {
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&name](const ResultRequirement& own) { return own.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&name](const ResultRequirement& requirement) {
+    return requirement.name == name;
+  });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -209,7 +210,8 @@ void compare_requirements(const Requirements& before, const Requirements& after,
 bool ResultsComparison::is_worse() const {
   return std::any_of(sets.begin(), sets.end(),
                      [](const SetComparison& set) { return set.name == "invariant" && set.left > 0; }) ||
-         std::any_of(values.begin(), values.end(), [](const ValueComparison& own) { return own.lost > 0; }) ||
+         std::any_of(values.begin(), values.end(),
+                     [](const ValueComparison& comparison) { return comparison.lost > 0; }) ||
          std::any_of(verdicts.begin(), verdicts.end(),
                      [](const VerdictChange& verdict) { return !verdict.holds_after; });
 }

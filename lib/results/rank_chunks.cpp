@@ -29,8 +29,8 @@ ChunkLayout::Stretch RankChunks::stretch(std::uint64_t chunk) const {
 int RankChunks::wanted_packer(std::uint64_t chunk) const {
   constexpr std::uint64_t kPlaces = 8;
   if (!layout_->chunked()) return 0;
-  const ChunkLayout::Stretch own = layout_->stretch(chunk);
-  return owners_->owner_of(own.begin + own.count * (2 * (chunk % kPlaces) + 1) / (2 * kPlaces));
+  const ChunkLayout::Stretch stretch = layout_->stretch(chunk);
+  return owners_->owner_of(stretch.begin + stretch.count * (2 * (chunk % kPlaces) + 1) / (2 * kPlaces));
 }
 
 /// Where agents that are alike are exchanged some ranks own many more cells than others.

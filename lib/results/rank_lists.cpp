@@ -47,10 +47,10 @@ std::vector<std::uint32_t> RankLists::gather(ThreadTeam& team, const CellOrder& 
         stretches.push_back({r, static_cast<std::uint64_t>(begin), static_cast<std::uint64_t>(count)});
     }
     gather_stretches(ranks, team, owners, numbers, stretches);
-    for (const GatheredStretch& own : stretches) {
+    for (const GatheredStretch& stretch : stretches) {
       const std::size_t before = result.size();
-      result.resize(before + own.count);
-      std::memcpy(result.data() + before, own.bytes.data(), own.bytes.size());
+      result.resize(before + stretch.count);
+      std::memcpy(result.data() + before, stretch.bytes.data(), stretch.bytes.size());
     }
   }
   return result;

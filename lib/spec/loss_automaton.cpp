@@ -33,9 +33,9 @@ LossAutomaton unfold(const std::function<std::vector<Losses>(const Losses&)>& su
   std::vector<std::pair<std::size_t, std::size_t>> links;
   for (std::size_t mode = 0; mode < modes.size(); ++mode) {
     for (Losses& next : successors(*modes[mode])) {
-      const auto [place, is_new] = found.try_emplace(std::move(next), modes.size());
-      if (is_new) modes.push_back(&place->first);
-      links.emplace_back(mode, place->second);
+      const auto [entry, is_new] = found.try_emplace(std::move(next), modes.size());
+      if (is_new) modes.push_back(&entry->first);
+      links.emplace_back(mode, entry->second);
     }
   }
   std::vector<std::size_t> order(modes.size());

@@ -53,20 +53,20 @@ void settle_probabilities(NetworkSpec& network, const std::string& pointer) {
   if (network.probabilities.empty()) return;
   std::vector<Sums> sums(network.modes.size());
   for (std::size_t t = 0; t < network.transitions.size(); ++t) {
-    Sums& own = sums[static_cast<std::size_t>(network.transitions[t].first)];
-    own.low += network.probabilities[t].low;
-    own.high += network.probabilities[t].high;
+    Sums& row_sums = sums[static_cast<std::size_t>(network.transitions[t].first)];
+    row_sums.low += network.probabilities[t].low;
+    row_sums.high += network.probabilities[t].high;
   }
   for (std::size_t mode = 0; mode < sums.size(); ++mode)
     check_sums(sums[mode], network.modes[mode].name, pointer);
   std::vector<std::pair<std::int32_t, std::int32_t>> transitions;
   std::vector<ProbabilityRange> probabilities;
   for (std::size_t t = 0; t < network.transitions.size(); ++t) {
-    const Sums& own = sums[static_cast<std::size_t>(network.transitions[t].first)];
+    const Sums& row_sums = sums[static_cast<std::size_t>(network.transitions[t].first)];
     const ProbabilityRange& range = network.probabilities[t];
     // The rest that the other transitions leave, at most and at least.
-    const Rational most = 1 - (own.low - range.low);
-    const Rational least = 1 - (own.high - range.high);
+    const Rational most = 1 - (row_sums.low - range.low);
+    const Rational least = 1 - (row_sums.high - range.high);
     ProbabilityRange narrow{std::max(range.low, least), std::min(range.high, most)};
     if (narrow.high == 0) continue;
     transitions.push_back(network.transitions[t]);

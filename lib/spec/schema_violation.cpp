@@ -203,8 +203,8 @@ class Walk {
   /// The values of a key, if they are a few words.
   [[nodiscard]] std::string choices(const Json& schema, const std::string& key) const {
     if (!schema.contains("properties") || !schema["properties"].contains(key)) return "";
-    const Json& own = resolve(schema["properties"][key]);
-    return own.contains("enum") ? ", expected " + wanted(own) : "";
+    const Json& entry = resolve(schema["properties"][key]);
+    return entry.contains("enum") ? ", expected " + wanted(entry) : "";
   }
 
   void missing_keys(const Json& schema, const Json& value, const std::string& pointer) {

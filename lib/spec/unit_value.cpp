@@ -83,7 +83,7 @@ class UnitReader {
     const auto end = std::find_if_not(rest_.begin(), rest_.end(), is_letter);
     const std::string_view word = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
     const auto* const found =
-        std::find_if(kUnits.begin(), kUnits.end(), [&](const NamedUnit& own) { return own.name == word; });
+        std::find_if(kUnits.begin(), kUnits.end(), [&](const NamedUnit& unit) { return unit.name == word; });
     if (found == kUnits.end()) return std::nullopt;
     rest_.remove_prefix(word.size());
     return power(found->value, exponent());

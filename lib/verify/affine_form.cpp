@@ -109,10 +109,10 @@ class Multiplier {
   }
 
   [[nodiscard]] Form variable(std::uint32_t slot) const {
-    const auto place = std::find(variables_.begin(), variables_.end(), slot);
-    if (place == variables_.end()) return {context_, values_[slot]};
+    const auto found = std::find(variables_.begin(), variables_.end(), slot);
+    if (found == variables_.end()) return {context_, values_[slot]};
     Form result(context_);
-    fmpq_mpoly_gen(result.get(), place - variables_.begin(), context_.get());
+    fmpq_mpoly_gen(result.get(), found - variables_.begin(), context_.get());
     return result;
   }
 

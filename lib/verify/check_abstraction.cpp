@@ -29,22 +29,22 @@ IndexRange without_far_ends(const GridDimension& dimension, IndexRange range) {
 }  // namespace
 
 Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
-                          const PostTable& own, const PostTable& claimed, const std::string& what) {
+                          const PostTable& posts, const PostTable& claimed, const std::string& what) {
   const GridDimension& dimension = grid[state];
   Tally tally(what + " " + dimension.name);
   tally.set_note("exact");
-  if (own.states != claimed.states || own.inputs != claimed.inputs) {
+  if (posts.states != claimed.states || posts.inputs != claimed.inputs) {
     tally.add_wrong(-1, [] { return std::string("depends on other states or inputs than the spec says"); });
     return tally.finding();
   }
-  for (std::size_t e = 0; e < own.entries.size(); ++e) {
+  for (std::size_t e = 0; e < posts.entries.size(); ++e) {
     tally.add_checked(1);
-    const IndexRange mine = without_far_ends(dimension, own.entries[e]);
-    const std::int64_t place = own.place_of(e);
+    const IndexRange mine = without_far_ends(dimension, posts.entries[e]);
+    const std::int64_t place = posts.place_of(e);
     const IndexRange found = without_far_ends(dimension, claimed.at(place));
     if (found.first <= found.last && holds(dimension, found, mine) && holds(dimension, mine, found)) continue;
     tally.add_wrong(place, [&] {
-      return fmt::format("{}: {} {}, expected {}", entry_text(grid, inputs, own, place), dimension.name,
+      return fmt::format("{}: {} {}, expected {}", entry_text(grid, inputs, posts, place), dimension.name,
                          range_text(dimension, found), range_text(dimension, mine));
     });
   }

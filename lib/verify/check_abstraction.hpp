@@ -15,7 +15,7 @@ namespace coordreq {
 /// the latter has.
 /// @param what the name of the check, before that of the state
 [[nodiscard]] Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
-                                        const PostTable& own, const PostTable& claimed,
+                                        const PostTable& posts, const PostTable& claimed,
                                         const std::string& what);
 
 }  // namespace coordreq

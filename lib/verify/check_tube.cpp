@@ -30,40 +30,40 @@ bool TubeTally::is_unbounded(std::int64_t place) const {
   return claimed.first == INT32_MIN && claimed.last == INT32_MAX;
 }
 
-bool TubeTally::is_enough(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own) const {
+bool TubeTally::is_enough(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& tubes) const {
   const IndexRange claimed = claimed_.at(place);
-  return !own.empty() && std::all_of(own.begin(), own.end(), [&](const OwnTube& tube) {
+  return !tubes.empty() && std::all_of(tubes.begin(), tubes.end(), [&](const OwnTube& tube) {
     return holds(dimension_, claimed, moved(tube.outer, by));
   });
 }
 
-bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& own) const {
-  IndexRange all = moved(own.front().outer, by);
-  for (const OwnTube& tube : own) {
+bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& tubes) const {
+  IndexRange all = moved(tubes.front().outer, by);
+  for (const OwnTube& tube : tubes) {
     if (tube.outer != tube.inner) return false;
     all = both_of(all, moved(tube.outer, by), dimension_);
   }
   return holds(dimension_, all, claimed);
 }
 
-void TubeTally::add(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own) {
+void TubeTally::add(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& tubes) {
   tally_.add_checked(1);
   const IndexRange claimed = claimed_.at(place);
-  if (is_enough(place, by, own)) {
-    if (exact_ && !is_exact(claimed, by, own)) exact_ = false;
+  if (is_enough(place, by, tubes)) {
+    if (exact_ && !is_exact(claimed, by, tubes)) exact_ = false;
     return;
   }
   exact_ = false;
-  for (const OwnTube& tube : own) {
+  for (const OwnTube& tube : tubes) {
     const IndexRange needed = moved(tube.inner, by);
     if (holds(dimension_, claimed, needed)) continue;
     tally_.add_wrong(place, [&] { return text_of(place, needed); });
     return;
   }
   tally_.add_unproven(place, [&] {
-    return own.empty()
+    return tubes.empty()
                ? entry_text(*question_.grid, *question_.inputs, claimed_, place) + ": no bound was found"
-               : text_of(place, moved(own.front().outer, by));
+               : text_of(place, moved(tubes.front().outer, by));
   });
 }
 

@@ -39,10 +39,10 @@ class TubeTally {
   explicit TubeTally(const PostQuestion& question);
 
   /// True if the entry holds all that is enough.
-  [[nodiscard]] bool is_enough(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own) const;
+  [[nodiscard]] bool is_enough(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& tubes) const;
   /// @param by how far up the own tubes have to be moved
   /// @param own one for each piece of the cell; empty: there are no bounds
-  void add(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own);
+  void add(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& tubes);
   /// The entry says that nothing is known, which blocks the pair: no tube need be computed.
   void add_unbounded() { tally_.add_checked(1); }
   [[nodiscard]] bool is_unbounded(std::int64_t place) const;
@@ -50,7 +50,7 @@ class TubeTally {
   [[nodiscard]] TubeFinding finding(bool may_be_exact);
 
  private:
-  [[nodiscard]] bool is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& own) const;
+  [[nodiscard]] bool is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& tubes) const;
   [[nodiscard]] std::string text_of(std::int64_t place, IndexRange needed) const;
 
   const PostQuestion& question_;

@@ -71,16 +71,16 @@ class ObjectComparison {
   void compare(const StoredObject& expected, const StoredObject& found) {
     path_ = expected.path;
     for (const auto& [name, text] : expected.texts) {
-      const auto place = found.texts.find(name);
-      note(name, place != found.texts.end() && place->second == text);
+      const auto match_found = found.texts.find(name);
+      note(name, match_found != found.texts.end() && match_found->second == text);
     }
     for (const auto& [name, values] : expected.integers) {
-      const auto place = found.integers.find(name);
-      note(name, place != found.integers.end() && same_integers(values, place->second));
+      const auto match_found = found.integers.find(name);
+      note(name, match_found != found.integers.end() && same_integers(values, match_found->second));
     }
     for (const auto& [name, values] : expected.numbers) {
-      const auto place = found.numbers.find(name);
-      note(name, place != found.numbers.end() && place->second == values);
+      const auto match_found = found.numbers.find(name);
+      note(name, match_found != found.numbers.end() && match_found->second == values);
     }
     note("DIMENSION_LIST", expected.axes == found.axes);
     note("CLASS", expected.is_scale == found.is_scale);
@@ -109,9 +109,9 @@ class ObjectComparison {
   }
 
   void remember_dimension(const StoredObject& scale) {
-    const auto place = scale.integers.find("_Netcdf4Dimid");
-    const bool one = place != scale.integers.end() && place->second.size() == 1;
-    dimensions_.push_back(one ? place->second.front() : -1);
+    const auto found = scale.integers.find("_Netcdf4Dimid");
+    const bool one = found != scale.integers.end() && found->second.size() == 1;
+    dimensions_.push_back(one ? found->second.front() : -1);
   }
 
   Tally tally_{"attributes"};

@@ -69,11 +69,11 @@ Extremes MapExtremes::extremes(std::size_t, const Enough& enough) {
 }
 
 bool MapExtremes::follows(const ArbBox& box, std::uint32_t slot) {
-  const auto place = std::find(map_.variables().begin(), map_.variables().end(), slot);
-  if (place == map_.variables().end()) return false;
+  const auto found = std::find(map_.variables().begin(), map_.variables().end(), slot);
+  if (found == map_.variables().end()) return false;
   const std::optional<std::vector<Arb>> slopes = map_.slopes(0, box);
   return slopes &&
-         arb_is_one((*slopes)[static_cast<std::size_t>(place - map_.variables().begin())].get()) != 0;
+         arb_is_one((*slopes)[static_cast<std::size_t>(found - map_.variables().begin())].get()) != 0;
 }
 
 }  // namespace coordreq

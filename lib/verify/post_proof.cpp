@@ -171,34 +171,36 @@ bool PostProver::is_claimed(const PostClaim& claim, const Arb& lower, const Arb&
 
 /// The cells met by values in a range, or if it is a difference by those from the cell with index 0.
 IndexRange PostProver::cells_of(std::size_t i, const Arb& lower, const Arb& upper) const {
-  const GridDimension& own = target(i);
+  const GridDimension& dimension = target(i);
   const Cells cells = spec_.abstraction.cells;
   const Rational least = lower.lower_rational();
   const Rational greatest = upper.upper_rational();
   if (!group_.shifts)
-    return cells_met(own, cells, least - own.measurement_error, greatest + own.measurement_error, true);
-  const Rational reach = own.radius() + 2 * own.measurement_error;
-  return cells_met(own, cells, own.first - reach + least, own.first + reach + greatest, false);
+    return cells_met(dimension, cells, least - dimension.measurement_error,
+                     greatest + dimension.measurement_error, true);
+  const Rational reach = dimension.radius() + 2 * dimension.measurement_error;
+  return cells_met(dimension, cells, dimension.first - reach + least, dimension.first + reach + greatest,
+                   false);
 }
 
 /// A value is outside for certain if every closed cell that it may be in is.
 bool PostProver::misses(const PostClaim& claim, const Rational& lower, const Rational& upper) const {
-  const GridDimension& own = target(claim.target);
-  const IndexRange met = cells_met(own, Cells::closed, lower, upper, true);
+  const GridDimension& dimension = target(claim.target);
+  const IndexRange met = cells_met(dimension, Cells::closed, lower, upper, true);
   if (std::int64_t{met.last} - met.first > 3) return false;
   for (std::int64_t k = met.first; k <= met.last; ++k) {
     const auto cell = static_cast<std::int32_t>(k);
-    if (holds(own, claim.range, {cell, cell})) return false;
+    if (holds(dimension, claim.range, {cell, cell})) return false;
   }
   return true;
 }
 
 std::optional<std::string> PostProver::witness(const PostClaim& claim, const Extreme& extreme) const {
   if (!extreme.attained || !extreme.attained->is_finite()) return std::nullopt;
-  const GridDimension& own = target(claim.target);
-  const Rational error = own.measurement_error;
-  const Rational reach = group_.shifts ? Rational(own.radius() + 2 * error) : error;
-  const Rational base = group_.shifts ? own.first : Rational(0);
+  const GridDimension& dimension = target(claim.target);
+  const Rational error = dimension.measurement_error;
+  const Rational reach = group_.shifts ? Rational(dimension.radius() + 2 * error) : error;
+  const Rational base = group_.shifts ? dimension.first : Rational(0);
   const Rational lower = base + extreme.attained->lower_rational();
   const Rational upper = base + extreme.attained->upper_rational();
   if (!misses(claim, lower - reach, upper - reach) && !misses(claim, lower + reach, upper + reach))
@@ -210,11 +212,11 @@ std::optional<std::string> PostProver::witness(const PostClaim& claim, const Ext
   }
   std::string from;
   for (const std::uint32_t slot : named) {
-    if (group_.shifts && name_of(spec_, slot) == own.name) continue;
+    if (group_.shifts && name_of(spec_, slot) == dimension.name) continue;
     from += fmt::format("{}{} = {}", from.empty() ? "" : ", ", name_of(spec_, slot),
                         number_text(extreme.start[slot]));
   }
-  return fmt::format("{}{} {} {}", from.empty() ? "" : "from " + from + " ", own.name,
+  return fmt::format("{}{} {} {}", from.empty() ? "" : "from " + from + " ", dimension.name,
                      group_.shifts ? "changes by" : "gets to", number_text(*extreme.attained));
 }
 

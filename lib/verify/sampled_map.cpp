@@ -352,9 +352,9 @@ Influences influences_on(const SystemSpec& spec, std::size_t state) {
 }
 
 std::optional<std::size_t> row_of(const Influences& influences, std::size_t state) {
-  const auto place = std::find(influences.moving.begin(), influences.moving.end(), state);
-  if (place == influences.moving.end()) return std::nullopt;
-  return static_cast<std::size_t>(place - influences.moving.begin());
+  const auto found = std::find(influences.moving.begin(), influences.moving.end(), state);
+  if (found == influences.moving.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - influences.moving.begin());
 }
 
 std::optional<SampledMap> sampled_map(const SystemSpec& spec, const Influences& influences, std::size_t state,

@@ -91,8 +91,8 @@ bool Trajectory::advance(ArbBox& box, const Arb& duration, double tolerance) {
   ArbBox key = box;
   key.push_back(duration);
   key.emplace_back(tolerance);
-  const auto [place, is_new] = known_.try_emplace(std::move(key));
-  Known& known = place->second;
+  const auto [entry, is_new] = known_.try_emplace(std::move(key));
+  Known& known = entry->second;
   if (is_new) {
     const Work before = field_->work();
     ArbBox end = box;

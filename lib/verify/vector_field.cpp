@@ -59,10 +59,11 @@ const ArbSeries& SeriesField::run(std::size_t equation, slong length) {
 
 const ArbSeries& SeriesField::extend(std::size_t equation, slong length) {
   if (length == 1) return run(equation, length);
-  ExpressionSeries& own = equations_[equation];
-  const auto repeated = static_cast<Work>(own.repeated_operations());
-  work_ += repeated * length * (length + 1) / 2 + (static_cast<Work>(own.operations()) - repeated) * length;
-  return own.extend(slots_, length);
+  ExpressionSeries& series = equations_[equation];
+  const auto repeated = static_cast<Work>(series.repeated_operations());
+  work_ +=
+      repeated * length * (length + 1) / 2 + (static_cast<Work>(series.operations()) - repeated) * length;
+  return series.extend(slots_, length);
 }
 
 /// The box in parts, as an equation sees it; none: as all of them do.

@@ -124,10 +124,10 @@ class Verifier {
     }
     const Work most = work_of_seconds(options_.budget_seconds.value_or(VerifyOptions::kDefaultBudget));
     budget_.emplace(most);
-    Budget own = budget_->part(1, spec_.abstraction.between_samples ? 2 : 1);
-    const Work before = own.left();
-    prove(enclosed, stored ? "abstraction " : "reachable sets ", own, findings);
-    budget_->spend(before - own.left());
+    Budget budget = budget_->part(1, spec_.abstraction.between_samples ? 2 : 1);
+    const Work before = budget.left();
+    prove(enclosed, stored ? "abstraction " : "reachable sets ", budget, findings);
+    budget_->spend(before - budget.left());
     for (std::optional<Finding>& finding : findings) {
       if (finding) result_.findings.push_back(std::move(*finding));
     }

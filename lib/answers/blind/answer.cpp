@@ -70,15 +70,15 @@ void find_blind_layers_of(std::size_t p, Answers& answers, const StageWork& work
   const AnalysisContext& context = answers.context;
   if (answers.find<Blind>() == nullptr)
     answers.add(Blind{std::vector<BlindPartition>(context.spec.coordination.partitions.size())});
-  DelayLayers& own = answers.get<Blind>().partitions[p].layers;
-  find_or_take_levels(work, *context.engine, bounds_of(answers, 0), own.layers_of,
+  DelayLayers& layers = answers.get<Blind>().partitions[p].layers;
+  find_or_take_levels(work, *context.engine, bounds_of(answers, 0), layers.layers_of,
                       [&](const WaveWatch& watch) {
                         work.enter_part("projections");
                         const BlindSight partition(answers, p, work);
                         work.enter_part("");
-                        return find_blind_levels(partition.problem, watch, work.team, own.counts);
+                        return find_blind_levels(partition.problem, watch, work.team, layers.counts);
                       });
-  follow_from_levels(context.spec.coordination.max_delay, work.team, own);
+  follow_from_levels(context.spec.coordination.max_delay, work.team, layers);
 }
 
 /// Gives tables their sizes, before they are loaded.
@@ -136,29 +136,35 @@ std::int64_t count_equal(const AnalysisContext& context, const CellSet& invarian
 /// Finds the levels of blind delays, and the tables, from the levels of B.
 void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work) {
   const AnalysisContext& context = answers.context;
-  BlindPartition& own = answers.get<Blind>().partitions[p];
-  const auto serialise_all = [&answers, &own](Archive& archive) {
-    serialise(archive, *answers.context.engine, bounds_of(answers, 1), own.delays.layers_of);
-    serialise_tables(archive, std::min(own.table_steps(), SilentTable::kMostSteps), own.tables);
+  BlindPartition& blind_partition = answers.get<Blind>().partitions[p];
+  const auto serialise_all = [&answers, &blind_partition](Archive& archive) {
+    serialise(archive, *answers.context.engine, bounds_of(answers, 1), blind_partition.delays.layers_of);
+    serialise_tables(archive, std::min(blind_partition.table_steps(), SilentTable::kMostSteps),
+                     blind_partition.tables);
   };
-  size_tables(answers, p, own.tables);
+  size_tables(answers, p, blind_partition.tables);
   const bool is_kept = work.store != nullptr && work.store->take(serialise_all) == StageStore::Kept::finished;
   if (!is_kept) {
     work.enter_part("projections");
     const BlindSight partition(answers, p, work);
     work.enter_part("");
-    own.delays.layers_of = find_blind_delays(partition.problem, own.layers.layers_of, work.team);
-    const std::int64_t deepest = own.layers.truncated ? own.layers.top_delay() : own.table_steps();
-    own.tables = find_silent_tables(partition.sources, own.layers.layers_of, deepest, work.team);
+    blind_partition.delays.layers_of =
+        find_blind_delays(partition.problem, blind_partition.layers.layers_of, work.team);
+    const std::int64_t deepest =
+        blind_partition.layers.truncated ? blind_partition.layers.top_delay() : blind_partition.table_steps();
+    blind_partition.tables =
+        find_silent_tables(partition.sources, blind_partition.layers.layers_of, deepest, work.team);
   }
-  own.delays.sizes = own.layers.sizes;
-  own.delays.fixed_point_index = own.layers.fixed_point_index;
-  own.delays.truncated = own.layers.truncated;
-  const LevelMap::Histogram found = own.delays.layers_of.histogram(work.team);
-  own.greatest = std::max<std::int64_t>(0, std::ssize(found.finite) - 2);
-  if (own.layers.truncated) own.greatest = std::max<std::int64_t>(own.greatest, own.layers.top_delay());
-  own.as_much = count_equal(context, answers.get<Invariance>().invariant, own.delays,
-                            answers.get<PartitionLayers>().partitions[p]);
+  blind_partition.delays.sizes = blind_partition.layers.sizes;
+  blind_partition.delays.fixed_point_index = blind_partition.layers.fixed_point_index;
+  blind_partition.delays.truncated = blind_partition.layers.truncated;
+  const LevelMap::Histogram found = blind_partition.delays.layers_of.histogram(work.team);
+  blind_partition.greatest = std::max<std::int64_t>(0, std::ssize(found.finite) - 2);
+  if (blind_partition.layers.truncated)
+    blind_partition.greatest =
+        std::max<std::int64_t>(blind_partition.greatest, blind_partition.layers.top_delay());
+  blind_partition.as_much = count_equal(context, answers.get<Invariance>().invariant, blind_partition.delays,
+                                        answers.get<PartitionLayers>().partitions[p]);
   if (work.store != nullptr) work.store->finish(serialise_all);
 }
 
@@ -196,9 +202,9 @@ void summarise_blind(const Answers& answers, Json& summary, Json& work) {
   if (!has_limited_sight(spec)) return;
   for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
     const DelayLayers& layers = blind_layers(answers, p);
-    Json& own = summary["partitions"][p]["blind"];
+    Json& entry = summary["partitions"][p]["blind"];
     const bool is_one_class = spec.coordination.partitions[p].classes.size() == 1;
-    own =
+    entry =
         blind_json(layers, is_one_class ? layers.sizes.front() : answers.get<Blind>().partitions[p].as_much);
     if (!is_one_class)
       work["blind layers " + spec.coordination.partitions[p].name] = work_json(layers.counts);

@@ -55,9 +55,9 @@ LevelMap run(const BlindProblem& problem, LevelMap& start, const WaveWatch& watc
                             .make8 = [&] { return make(std::uint8_t{}); },
                             .make16 = [&] { return make(std::uint16_t{}); },
                             .make32 = [&] { return make(std::uint32_t{}); }};
-  WaveWatch own = watch;
-  own.resumed = &start;
-  return find_levels(engine_of(problem), problem.hull, levels, own, team, counts);
+  WaveWatch inner_watch = watch;
+  inner_watch.resumed = &start;
+  return find_levels(engine_of(problem), problem.hull, levels, inner_watch, team, counts);
 }
 
 }  // namespace

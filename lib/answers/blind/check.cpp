@@ -106,24 +106,24 @@ class BlindChecker : public CellChecker {
       : context_(context), partitions_(partitions) {}
 
   void check(CheckedCell& cell) override {
-    for (BlindPartitionCheck& own : partitions_) {
-      keep_actions(cell, own);
+    for (BlindPartitionCheck& partition : partitions_) {
+      keep_actions(cell, partition);
       const std::int32_t outside = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
-      const std::int32_t expected = cell.is_invariant() ? delay_by_definition(cell, own) : outside;
-      compare(own.delay, cell, own.delays[cell.at()], expected);
+      const std::int32_t expected = cell.is_invariant() ? delay_by_definition(cell, partition) : outside;
+      compare(partition.delay, cell, partition.delays[cell.at()], expected);
       // In B_1 blind delay and countdown agree; which cells are in B_1 is checked later.
-      const std::int32_t claimed = own.claims.delay[cell.at()];
-      const bool is_out = claimed == 0 && expected >= 0 && !own.classes.empty() && !cell.is_over();
-      compare(own.countdown, cell, claimed, is_out ? 0 : expected);
-      if (cell.is_invariant() && !cell.is_over()) check_rows(cell, own);
+      const std::int32_t claimed = partition.claims.delay[cell.at()];
+      const bool is_out = claimed == 0 && expected >= 0 && !partition.classes.empty() && !cell.is_over();
+      compare(partition.countdown, cell, claimed, is_out ? 0 : expected);
+      if (cell.is_invariant() && !cell.is_over()) check_rows(cell, partition);
     }
   }
 
  private:
-  static void keep_actions(const CheckedCell& cell, BlindPartitionCheck& own) {
-    ++own.looked_at;
+  static void keep_actions(const CheckedCell& cell, BlindPartitionCheck& partition) {
+    ++partition.looked_at;
     const std::vector<std::uint8_t>& admitted = cell.admitted();
-    for (BlindClass& one : own.classes) {
+    for (BlindClass& one : partition.classes) {
       for (std::size_t u = 0; u < admitted.size(); ++u) {
         if (admitted[u] == 0) continue;
         const std::int64_t a = one.own.action(static_cast<std::int64_t>(u));
@@ -133,22 +133,24 @@ class BlindChecker : public CellChecker {
     }
   }
 
-  [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell, const BlindPartitionCheck& own) const {
-    if (own.classes.empty()) return own.of_sight[cell.at()];
+  [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell,
+                                                 const BlindPartitionCheck& partition) const {
+    if (partition.classes.empty()) return partition.of_sight[cell.at()];
     bool any = cell.is_over();
     std::int32_t worst = kForever;
     const std::int64_t inputs = cell.is_over() ? 0 : context_.inputs->count();
     for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
-      const bool is_chosen = std::ranges::all_of(
-          own.classes, [&](const BlindClass& one) { return one.has(cell.number(), one.own.action(u)); });
+      const bool is_chosen = std::ranges::all_of(partition.classes, [&](const BlindClass& one) {
+        return one.has(cell.number(), one.own.action(u));
+      });
       if (!is_chosen) continue;
       any = true;
       const std::int32_t least =
-          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, own.claims.delay, kOutsideInvariant);
+          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, partition.claims.delay, kOutsideInvariant);
       worst = std::min(worst, std::max(least, kOutsideInvariant));
     }
     const std::int32_t delay = any ? one_more(worst) : 0;
-    return own.most ? std::min(delay, static_cast<std::int32_t>(*own.most)) : delay;
+    return partition.most ? std::min(delay, static_cast<std::int32_t>(*partition.most)) : delay;
   }
 
   void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
@@ -159,19 +161,19 @@ class BlindChecker : public CellChecker {
   }
 
   /// No row may hold an action that is not admissible in a cell in which the system may be.
-  void check_rows(const CheckedCell& cell, BlindPartitionCheck& own) const {
-    const std::int32_t depth = own.depth(cell.number());
-    for (const BlindClass& one : own.classes) {
+  void check_rows(const CheckedCell& cell, BlindPartitionCheck& partition) const {
+    const std::int32_t depth = partition.depth(cell.number());
+    for (const BlindClass& one : partition.classes) {
       if (one.table == nullptr || depth < 1) continue;
       const std::int64_t fibre = one.fibre(cell.number());
       for (std::int64_t k = 1; k <= std::min<std::int64_t>(depth, one.rows()); ++k) {
-        own.tables.add_checked(1);
+        partition.tables.add_checked(1);
         if (!has_more(one, one.place(k, fibre), cell.number())) continue;
         if (context_.sound_only()) {
-          own.tables.add_unproven();
+          partition.tables.add_unproven();
           continue;
         }
-        own.tables.add_wrong(cell.number(), [&] {
+        partition.tables.add_wrong(cell.number(), [&] {
           return fmt::format("{}: an action that is not admissible at {}", one.words(k, fibre), cell.place());
         });
       }
@@ -200,8 +202,8 @@ class BlindCheck : public AnswerCheck {
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::vector<Finding> findings;
     std::size_t longest = 1;
-    for (const BlindPartitionCheck& own : partitions_)
-      findings.push_back(compare_layers(*context_.spec, *context_.claims, own.claims, longest));
+    for (const BlindPartitionCheck& partition : partitions_)
+      findings.push_back(compare_layers(*context_.spec, *context_.claims, partition.claims, longest));
     sizes.expect("length of /blind_layer", partitions_.front().claims.layer_sizes.size(), longest);
     return findings;
   }
@@ -209,22 +211,22 @@ class BlindCheck : public AnswerCheck {
     return std::make_unique<BlindChecker>(context_, partitions_);
   }
   void check_all(ThreadTeam& /*team*/) override {
-    for (BlindPartitionCheck& own : partitions_) {
-      if (own.classes.empty() || own.looked_at < context_.grid->cells()) continue;
-      if (own.most != 0) check_first(own);
-      for (const BlindClass& one : own.classes) {
-        if (one.table != nullptr) check_table(own, one);
+    for (BlindPartitionCheck& partition : partitions_) {
+      if (partition.classes.empty() || partition.looked_at < context_.grid->cells()) continue;
+      if (partition.most != 0) check_first(partition);
+      for (const BlindClass& one : partition.classes) {
+        if (one.table != nullptr) check_table(partition, one);
       }
     }
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
-    for (const BlindPartitionCheck& own : partitions_) {
-      result.push_back(own.delay.finding());
-      result.push_back(own.countdown.finding());
-      if (own.classes.empty()) continue;
-      result.push_back(own.first.finding());
-      result.push_back(own.tables.finding());
+    for (const BlindPartitionCheck& partition : partitions_) {
+      result.push_back(partition.delay.finding());
+      result.push_back(partition.countdown.finding());
+      if (partition.classes.empty()) continue;
+      result.push_back(partition.first.finding());
+      result.push_back(partition.tables.finding());
     }
     return result;
   }
@@ -242,16 +244,17 @@ class BlindCheck : public AnswerCheck {
   }
 
   /// B_1 by its definition, from Z_1 as claimed.
-  void check_first(BlindPartitionCheck& own) const {
+  void check_first(BlindPartitionCheck& partition) const {
     const std::int64_t cells = context_.grid->cells();
     std::vector<std::uint8_t> left(at(cells), 0);
-    for (std::int64_t x = 0; x < cells; ++x) left[at(x)] = own.of_sight[at(x)] >= 1 && !is_over(x) ? 1 : 0;
-    for (const BlindClass& one : own.classes) leave_common(one, left);
-    own.first.add_checked(cells);
+    for (std::int64_t x = 0; x < cells; ++x)
+      left[at(x)] = partition.of_sight[at(x)] >= 1 && !is_over(x) ? 1 : 0;
+    for (const BlindClass& one : partition.classes) leave_common(one, left);
+    partition.first.add_checked(cells);
     for (std::int64_t x = 0; x < cells; ++x) {
-      if (is_over(x) || (left[at(x)] != 0) == (own.claims.delay[at(x)] >= 1)) continue;
+      if (is_over(x) || (left[at(x)] != 0) == (partition.claims.delay[at(x)] >= 1)) continue;
       const char* const expected = left[at(x)] != 0 ? "" : "not ";
-      note(own.first, x, fmt::format("{}: expected {}in B_1", place_of(*context_.grid, x), expected));
+      note(partition.first, x, fmt::format("{}: expected {}in B_1", place_of(*context_.grid, x), expected));
     }
   }
 
@@ -278,12 +281,12 @@ class BlindCheck : public AnswerCheck {
 
   /// Each row must be the common actions of all cells of B_k in the fibre: those of this depth, and all
   /// deeper ones.
-  void check_table(BlindPartitionCheck& own, const BlindClass& one) const {
+  void check_table(BlindPartitionCheck& partition, const BlindClass& one) const {
     const std::int64_t rows = one.rows(), bytes = one.own.bytes();
     CommonActions common{std::vector<std::uint8_t>(one.table->size(), 0xFF),
                          std::vector<std::uint8_t>(at(rows * one.fibres), 0)};
     for (std::int64_t x = 0; x < context_.grid->cells(); ++x) {
-      const std::int64_t k = std::min<std::int64_t>(own.depth(x), rows);
+      const std::int64_t k = std::min<std::int64_t>(partition.depth(x), rows);
       if (k < 1 || is_over(x)) continue;
       const std::int64_t fibre = one.fibre(x);
       common.is_met[at((k - 1) * one.fibres + fibre)] = 1;
@@ -292,9 +295,9 @@ class BlindCheck : public AnswerCheck {
     }
     for (std::int64_t k = rows; k >= 1; --k) {
       for (std::int64_t fibre = 0; fibre < one.fibres; ++fibre) {
-        own.tables.add_checked(1);
+        partition.tables.add_checked(1);
         if (is_row(one, k, fibre, common)) continue;
-        note(own.tables, context_.grid->cells() + k * one.fibres + fibre,
+        note(partition.tables, context_.grid->cells() + k * one.fibres + fibre,
              one.words(k, fibre) + ": other actions than all of its cells have");
       }
     }

@@ -68,17 +68,17 @@ class SightFinder {
 
   /// The two cells whose actions have least in common, the first of equals.
   [[nodiscard]] std::optional<Confusion> find(std::int64_t cell) const {
-    const Sets own = context_.projections(cell);
+    const Sets sets = context_.projections(cell);
     std::optional<Confusion> least;
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!has_silent_table(*context_.spec, *context_.partition, c)) continue;
       for (const std::int64_t other : fibre(c, cell)) {
         if (other == cell || delay_(other) < 1 || is_over(other)) continue;
         const std::vector<bool> actions = context_.projections(other)[c];
-        const std::int64_t common = count_common(own[c], actions);
+        const std::int64_t common = count_common(sets[c], actions);
         if (common == std::count(actions.begin(), actions.end(), true)) continue;  // any action serves there
         if (least && common >= least->common) continue;
-        least = {c, cell, other, own[c], actions, common};
+        least = {c, cell, other, sets[c], actions, common};
         if (common == 0) return least;
       }
     }

@@ -55,7 +55,7 @@ void add_table(Fields& fields, const ProblemSpec& spec, const PartitionSpec& par
 ResultArray table_array(const SilentTable& table, std::int64_t layers) {
   const std::int64_t bytes = (table.actions + 7) / 8;
   return {ElementType::uint8, [&table, layers, bytes](std::uint64_t begin, std::uint64_t count, void* out) {
-            auto* const place = static_cast<std::uint8_t*>(out);
+            auto* const target = static_cast<std::uint8_t*>(out);
             for (std::uint64_t i = 0; i < count; ++i) {
               const auto number = static_cast<std::int64_t>(begin + i);
               const std::int64_t fibre = number / bytes % table.fibres();
@@ -64,7 +64,7 @@ ResultArray table_array(const SilentTable& table, std::int64_t layers) {
               unsigned bits = 0;
               for (std::int64_t a = first; a < std::min(first + 8, table.actions); ++a)
                 bits |= (table.allows(fibre, a, k) ? 1U : 0U) << (a - first);
-              place[i] = static_cast<std::uint8_t>(bits);
+              target[i] = static_cast<std::uint8_t>(bits);
             }
           }};
 }
@@ -76,11 +76,12 @@ void fill_tables(const Answers& answers, FieldValues& values) {
   std::int64_t longest = 0;
   for (std::size_t p = 0; p < blind->partitions.size(); ++p) {
     const PartitionSpec& partition = spec.coordination.partitions[p];
-    const BlindPartition& own = blind->partitions[p];
-    for (std::size_t c = 0; c < own.tables.size(); ++c) {
+    const BlindPartition& blind_partition = blind->partitions[p];
+    for (std::size_t c = 0; c < blind_partition.tables.size(); ++c) {
       if (!has_silent_table(spec, partition, c)) continue;
-      longest = std::max(longest, own.table_steps());
-      values.entries[paths::silent(spec, partition, c)].array = table_array(own.tables[c], own.table_steps());
+      longest = std::max(longest, blind_partition.table_steps());
+      values.entries[paths::silent(spec, partition, c)].array =
+          table_array(blind_partition.tables[c], blind_partition.table_steps());
     }
   }
   if (longest > 0) values.lengths[paths::kSilentLayer] = static_cast<std::uint64_t>(longest);

@@ -61,11 +61,11 @@ class BlindPolicy : public CellPolicy {
   };
 
   /// Rows beyond the last one are equal to it.
-  [[nodiscard]] Numbers row(const Class& own, std::int64_t cell, std::int32_t countdown) const {
+  [[nodiscard]] Numbers row(const Class& silent_class, std::int64_t cell, std::int32_t countdown) const {
     const std::int64_t rows = tables_->length(paths::kSilentLayer);
     std::vector<std::int64_t> place{std::min<std::int64_t>(countdown, rows) - 1};
-    for (const std::size_t i : own.seen) place.push_back(posts_.grid().index(cell, i));
-    const std::vector<std::uint8_t> bytes = tables_->bytes(own.table, place);
+    for (const std::size_t i : silent_class.seen) place.push_back(posts_.grid().index(cell, i));
+    const std::vector<std::uint8_t> bytes = tables_->bytes(silent_class.table, place);
     Numbers actions;
     for (std::size_t a = 0; a < 8 * bytes.size(); ++a) {
       if ((bytes[a / 8] >> (a % 8) & 1U) != 0) actions.push_back(static_cast<std::int64_t>(a));

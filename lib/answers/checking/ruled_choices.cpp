@@ -26,9 +26,9 @@ RuledChoices::RuledChoices(const CheckContext& context, const std::vector<std::o
 std::vector<std::int64_t> RuledChoices::of(std::int64_t cell, const std::vector<std::uint8_t>& admitted) {
   for (PermittedPairs& rule : rules_) rule.go_to(cell);
   std::vector<std::vector<std::uint8_t>> parts;
-  for (const InputClass& own : asking_) {
-    std::vector<std::uint8_t>& part = parts.emplace_back(at(own.actions()), std::uint8_t{0});
-    for (std::int64_t u = 0; u < joint_inputs_; ++u) part[at(own.action(u))] |= admitted[at(u)];
+  for (const InputClass& input_class : asking_) {
+    std::vector<std::uint8_t>& part = parts.emplace_back(at(input_class.actions()), std::uint8_t{0});
+    for (std::int64_t u = 0; u < joint_inputs_; ++u) part[at(input_class.action(u))] |= admitted[at(u)];
   }
   std::vector<std::int64_t> result;
   for (std::int64_t u = 0; u < joint_inputs_; ++u) {

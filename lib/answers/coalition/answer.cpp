@@ -16,7 +16,8 @@ namespace {
 void find_coalition_map(Answers& answers, const StageWork& work) {
   const ProblemSpec& spec = answers.context.spec;
   std::vector<const DelayLayers*> layers;
-  for (const DelayLayers& own : answers.get<PartitionLayers>().partitions) layers.push_back(&own);
+  for (const DelayLayers& its_layers : answers.get<PartitionLayers>().partitions)
+    layers.push_back(&its_layers);
   answers.add(find_coalitions(spec.coordination, spec.agents.size(), answers.get<Invariance>().invariant,
                               layers, work.team));
 }

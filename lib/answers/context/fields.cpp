@@ -71,12 +71,12 @@ ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t I
                        const std::shared_ptr<TableCache>& tables) {
   return {ElementType::int32,
           [&answers, state, end, tables](std::uint64_t begin, std::uint64_t count, void* out) {
-            const TransitionTable& own = answers.context.abstraction->tables[state];
-            const bool is_in_full = !own.shift && !own.is_sum();
+            const TransitionTable& post_table = answers.context.abstraction->tables[state];
+            const bool is_in_full = !post_table.shift && !post_table.is_sum();
             std::shared_ptr<const TransitionTable> written;
             if (!is_in_full)
               written = tables->get(state, [&] { return written_out(*answers.context.abstraction, state); });
-            const TransitionTable& table = is_in_full ? own : *written;
+            const TransitionTable& table = is_in_full ? post_table : *written;
             const auto first = table.entries.begin() + (static_cast<std::int64_t>(begin) - table.before);
             std::transform(first, first + static_cast<std::ptrdiff_t>(count), static_cast<std::int32_t*>(out),
                            [end](const IndexRange& range) { return range.*end; });

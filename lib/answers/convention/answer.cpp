@@ -40,16 +40,16 @@ void serialise(Archive& archive, const RowEngine& engine, ConventionFreedom& con
 void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_cells, RowShare::Range rows,
          std::int64_t length, ConventionFreedom& result) {
   for (std::size_t i = 0; i < result.agents.size(); ++i) {
-    ConventionFreedom::Agent& own = result.agents[i];
+    ConventionFreedom::Agent& agent = result.agents[i];
     const ConventionFreedom::Agent& more = other.agents[i];
     const auto [begin, end] = rows;
     for (auto x = static_cast<std::size_t>(begin * length); x < static_cast<std::size_t>(end * length); ++x) {
-      if (!std::isnan(more.freedom[x])) own.freedom[x] = more.freedom[x];
+      if (!std::isnan(more.freedom[x])) agent.freedom[x] = more.freedom[x];
     }
     const auto n = static_cast<double>(cells), m = static_cast<double>(other_cells);
-    if (other_cells > 0) own.mean = (own.mean * n + more.mean * m) / (n + m);
-    own.full += more.full;
-    for (std::size_t k = 0; k < own.histogram.size(); ++k) own.histogram[k] += more.histogram[k];
+    if (other_cells > 0) agent.mean = (agent.mean * n + more.mean * m) / (n + m);
+    agent.full += more.full;
+    for (std::size_t k = 0; k < agent.histogram.size(); ++k) agent.histogram[k] += more.histogram[k];
   }
 }
 
@@ -64,13 +64,13 @@ ConventionFreedom find_parts(const AnalysisContext& context, const ConventionAns
     std::optional<Tiles> tiles;
     // Not with a goal: then posts must stay in more cells than those of the part, or come nearer.
     if (convention.agents.size() == 1) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
-    ConventionFreedom own =
+    ConventionFreedom freedom =
         find_convention(part.controller, convention.agents[k], team, tiles ? &*tiles : nullptr);
     const std::int64_t count = context.count(invariant);
     if (k == 0) {
-      result = std::move(own);
+      result = std::move(freedom);
     } else {
-      add(own, cells, count, own_rows(engine.share(), engine.rows()), engine.row_length(), result);
+      add(freedom, cells, count, own_rows(engine.share(), engine.rows()), engine.row_length(), result);
     }
     cells += count;
   }
@@ -107,9 +107,11 @@ void summarise_convention(const Answers& answers, Json& summary, Json& /*work*/)
   if (convention == nullptr) return;
   const std::vector<AgentSpec>& agents = answers.context.spec.agents;
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    const ConventionFreedom::Agent& own = convention->freedom.agents[i];
-    summary["convention"].push_back(Json{
-        {"agent", agents[i].name}, {"mean", own.mean}, {"full", own.full}, {"histogram", own.histogram}});
+    const ConventionFreedom::Agent& agent = convention->freedom.agents[i];
+    summary["convention"].push_back(Json{{"agent", agents[i].name},
+                                         {"mean", agent.mean},
+                                         {"full", agent.full},
+                                         {"histogram", agent.histogram}});
   }
 }
 

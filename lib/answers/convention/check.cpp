@@ -60,12 +60,12 @@ ConventionChecker::ConventionChecker(const CheckContext& context, ConventionTall
   if (context.spec->goal) progress_.emplace(context);
   for (std::size_t a = 0; a < context.spec->agents.size(); ++a) {
     actions_.push_back(context.claims->bits("/actions:convention/" + context.spec->agents[a].name));
-    InputClass& own =
+    InputClass& input_class =
         agents_.emplace_back(class_of(*context.spec, *context.inputs, {static_cast<std::int32_t>(a)}));
-    own.tabulate();
-    auto& joint = joint_.emplace_back(static_cast<std::size_t>(own.actions()));
+    input_class.tabulate();
+    auto& joint = joint_.emplace_back(static_cast<std::size_t>(input_class.actions()));
     for (std::int64_t u = 0; u < context.inputs->count(); ++u)
-      joint[static_cast<std::size_t>(own.action(u))].push_back(static_cast<std::int32_t>(u));
+      joint[static_cast<std::size_t>(input_class.action(u))].push_back(static_cast<std::int32_t>(u));
   }
 }
 

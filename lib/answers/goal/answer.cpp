@@ -55,8 +55,8 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   const ApproachSets sets{goal.engine.get(), &goal.nearness, &goal.cells, &goal.away};
   const std::int64_t steps = engine.grid().points();
   const LevelBounds bounds{&goal.winning, max_delay ? std::min(*max_delay, steps) : steps};
-  DelayLayers& own = goal.approach[p];
-  find_or_take_levels(work, engine, bounds, own.layers_of, [&](const WaveWatch& watch) {
+  DelayLayers& its_layers = goal.approach[p];
+  find_or_take_levels(work, engine, bounds, its_layers.layers_of, [&](const WaveWatch& watch) {
     work.enter_part("projections");
     const PartitionSpec& partition = spec.coordination.partitions[p];
     const ActionGrouping grouping(engine, input_classes(spec, answers.context.abstraction->inputs, partition),
@@ -64,10 +64,10 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
     const Projections projections(goal.progress, grouping, work.team);
     work.enter_part("");
     DelayLayers found = find_approach_layers(sets, projections, layers, max_delay, watch, work.team);
-    own.counts = found.counts;
+    its_layers.counts = found.counts;
     return std::move(found.layers_of);
   });
-  follow_from_approach(layers, max_delay, work.team, own);
+  follow_from_approach(layers, max_delay, work.team, its_layers);
 }
 
 }  // namespace

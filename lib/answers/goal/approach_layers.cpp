@@ -111,14 +111,14 @@ DelayLayers find_approach_layers(const ApproachSets& sets, const Projections& pr
                              .make16 = [&] { return make(std::uint16_t{}); },
                              .make32 = [&] { return make(std::uint32_t{}); }};
   LevelMap start;
-  WaveWatch own = watch;
-  if (own.resumed == nullptr) {
+  WaveWatch inner_watch = watch;
+  if (inner_watch.resumed == nullptr) {
     start = first_levels(sets, nearing, layers);
-    own.resumed = &start;
+    inner_watch.resumed = &start;
   }
   WaveCounts counts;
-  DelayLayers result{
-      .layers_of = find_levels(sets.progress->engine(), sets.progress->hull(), problem, own, team, counts)};
+  DelayLayers result{.layers_of = find_levels(sets.progress->engine(), sets.progress->hull(), problem,
+                                              inner_watch, team, counts)};
   result.counts = counts;
   follow_from_approach(layers, max_delay, team, result);
   return result;

@@ -47,12 +47,12 @@ LevelMap find_nearness(const RowEngine& engine, const RowHull& hull, const CellS
       .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, synthesis, true, workers); },
       .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, synthesis, true, workers); }};
   LevelMap start;
-  WaveWatch own = watch;
-  if (own.resumed == nullptr) {
+  WaveWatch inner_watch = watch;
+  if (inner_watch.resumed == nullptr) {
     start = first_nearness(engine, invariant, goal, tiles != nullptr);
-    own.resumed = &start;
+    inner_watch.resumed = &start;
   }
-  return find_levels(engine, hull, problem, own, team, counts);
+  return find_levels(engine, hull, problem, inner_watch, team, counts);
 }
 
 CellSet winning_cells(const LevelMap& nearness, ThreadTeam& team) {

@@ -127,8 +127,8 @@ class GoalChecker : public CellChecker {
     for (std::size_t c = 0; c < classes_[p].size(); ++c) {
       if (classes_[p][c].actions == nullptr) continue;
       any = true;
-      const BitDifference own = compare_bits(*classes_[p][c].actions, cell.at(), projections_[c]);
-      found = {.extra = found.extra + own.extra, .fewer = found.fewer || own.fewer};
+      const BitDifference difference = compare_bits(*classes_[p][c].actions, cell.at(), projections_[c]);
+      found = {.extra = found.extra + difference.extra, .fewer = found.fewer || difference.fewer};
     }
     if (any) compare(tallies_.approach[p].actions, cell, found);
   }
@@ -282,10 +282,10 @@ class GoalCheck : public AnswerCheck {
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.goal.finding(), tallies_.arrival.finding()};
     if (context_.spec->output.controller) result.push_back(tallies_.controller.finding());
-    for (const ApproachTallies& own : tallies_.approach) {
-      result.push_back(own.delay.finding());
-      result.push_back(own.trigger.finding());
-      if (context_.spec->output.actions) result.push_back(own.actions.finding());
+    for (const ApproachTallies& tallies : tallies_.approach) {
+      result.push_back(tallies.delay.finding());
+      result.push_back(tallies.trigger.finding());
+      if (context_.spec->output.actions) result.push_back(tallies.actions.finding());
     }
     return result;
   }

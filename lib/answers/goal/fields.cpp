@@ -117,10 +117,10 @@ void fill_approach(const Answers& answers, const Goal& goal, FieldValues& values
   const ElementType type = delay_type(goal.approach);
   const std::int64_t connection_delay = spec.coordination.connection_delay;
   std::vector<ResultArray> delays, triggers;
-  for (const DelayLayers& own : goal.approach) {
-    delays.push_back(with_losing_cells(delay_array(own, times, order, type), goal, order));
+  for (const DelayLayers& layers : goal.approach) {
+    delays.push_back(with_losing_cells(delay_array(layers, times, order, type), goal, order));
     triggers.push_back(
-        with_losing_cells(trigger_array(own, times, connection_delay, order, type), goal, order));
+        with_losing_cells(trigger_array(layers, times, connection_delay, order, type), goal, order));
   }
   values.entries[paths::kApproachDelay].array = stacked_array(cell_count(spec), std::move(delays));
   values.entries[paths::kApproachTrigger].array = stacked_array(cell_count(spec), std::move(triggers));

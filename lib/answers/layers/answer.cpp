@@ -183,9 +183,9 @@ Json layers_json(const DelayLayers& layers) {
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["partitions"] = Json::array();
   for (const StoredPartition& partition : read_partition_values(spec, source)) {
-    Json own = {{"name", partition.name}};
-    own.update(stored_json(partition));
-    info["partitions"].push_back(std::move(own));
+    Json entry = {{"name", partition.name}};
+    entry.update(stored_json(partition));
+    info["partitions"].push_back(std::move(entry));
   }
 }
 
@@ -209,8 +209,8 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
     need.work = std::max(need.work, groups + projection_bytes(sizes, classes));
     if (!spec.output.actions) continue;
     actions = std::max(actions, groups);
-    for (const InputClass& own : classes)
-      need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
+    for (const InputClass& input_class : classes)
+      need.array = std::max(need.array, sizes.packed_pairs(input_class.actions()));
   }
   need.work += sizes.wave(threads) + sizes.level_delta();
   if (has_safe_side(spec)) need.work += sizes.levels() + 2 * sizes.set();

@@ -40,7 +40,8 @@ class PartitionChecker {
  public:
   PartitionChecker(const CheckContext& context, PartitionTallies& tallies)
       : context_(context), claims_(tallies.claims), tallies_(tallies), classes_(tallies.classes) {
-    for (const InputClass& own : classes_) projection_.emplace_back(static_cast<std::size_t>(own.actions()));
+    for (const InputClass& input_class : classes_)
+      projection_.emplace_back(static_cast<std::size_t>(input_class.actions()));
   }
 
   void check(CheckedCell& cell) {
@@ -71,8 +72,8 @@ class PartitionChecker {
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       const std::vector<std::uint8_t>& bytes = *claims_.actions[c];
       std::vector<std::uint8_t>& projection = projection_[c];
-      const BitDifference own = compare_bits(bytes, cell.at(), projection);
-      found = {.extra = found.extra + own.extra, .fewer = found.fewer || own.fewer};
+      const BitDifference difference = compare_bits(bytes, cell.at(), projection);
+      found = {.extra = found.extra + difference.extra, .fewer = found.fewer || difference.fewer};
       const std::size_t length = (projection.size() + 7) / 8;
       for (std::size_t a = 0; context_.sound_only() && a < projection.size(); ++a) {
         if ((bytes[cell.at() * length + a / 8] >> (a % 8) & 1U) == 0) projection[a] = 0;
@@ -142,7 +143,7 @@ class PartitionChecker {
 class DelayChecker : public CellChecker {
  public:
   DelayChecker(const CheckContext& context, std::deque<PartitionTallies>& tallies) {
-    for (PartitionTallies& own : tallies) partitions_.emplace_back(context, own);
+    for (PartitionTallies& partition : tallies) partitions_.emplace_back(context, partition);
   }
   void check(CheckedCell& cell) override {
     for (PartitionChecker& partition : partitions_) partition.check(cell);
@@ -162,8 +163,8 @@ class LayersCheck : public AnswerCheck {
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::vector<Finding> findings;
     std::size_t longest = 1;
-    for (const PartitionTallies& own : tallies_)
-      findings.push_back(compare_layers(*context_.spec, *context_.claims, own.claims, longest));
+    for (const PartitionTallies& tallies : tallies_)
+      findings.push_back(compare_layers(*context_.spec, *context_.claims, tallies.claims, longest));
     const std::size_t row = tallies_.empty() ? longest : tallies_.front().claims.layer_sizes.size();
     sizes.expect("length of /layer", row, longest);
     return findings;
@@ -173,10 +174,10 @@ class LayersCheck : public AnswerCheck {
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
-    for (const PartitionTallies& own : tallies_) {
-      if (!own.claims.actions.empty()) result.push_back(own.actions.finding());
-      result.push_back(own.delay.finding());
-      result.push_back(own.trigger.finding());
+    for (const PartitionTallies& tallies : tallies_) {
+      if (!tallies.claims.actions.empty()) result.push_back(tallies.actions.finding());
+      result.push_back(tallies.delay.finding());
+      result.push_back(tallies.trigger.finding());
     }
     return result;
   }

@@ -105,20 +105,20 @@ PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, 
   }
 }
 
-Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const PartitionClaims& own,
+Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const PartitionClaims& partition,
                        std::size_t& longest) {
-  Comparison comparison(own.meant.words + " " + own.partition.name);
-  const std::optional<Layers> layers = layers_of(spec, own);
+  Comparison comparison(partition.meant.words + " " + partition.partition.name);
+  const std::optional<Layers> layers = layers_of(spec, partition);
   if (!layers) {
     comparison.expect<std::string_view>(
         "F and the delays", "contradict each other",
-        own.fixed_point_index < 0 ? "an iteration stopped by max_delay" : "a fixed point");
+        partition.fixed_point_index < 0 ? "an iteration stopped by max_delay" : "a fixed point");
     return comparison.finding();
   }
   longest = std::max(longest, layers->sizes.size());
-  check_sizes(own, *layers, comparison);
-  if (spec.output.layers && own.meant.prefix == "/")
-    check_lists(own, read_layer_lists(spec, own.partition, claims), *layers, comparison);
+  check_sizes(partition, *layers, comparison);
+  if (spec.output.layers && partition.meant.prefix == "/")
+    check_lists(partition, read_layer_lists(spec, partition.partition, claims), *layers, comparison);
   return comparison.finding();
 }
 

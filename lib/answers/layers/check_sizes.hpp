@@ -38,6 +38,6 @@ struct PartitionClaims {
 /// delays of the cells.
 /// @param longest the most layers of any partition so far
 [[nodiscard]] Finding compare_layers(const ProblemSpec& spec, const Claims& claims,
-                                     const PartitionClaims& own, std::size_t& longest);
+                                     const PartitionClaims& partition, std::size_t& longest);
 
 }  // namespace coordreq

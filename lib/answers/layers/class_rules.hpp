@@ -32,8 +32,8 @@ struct SilentRules {
 
   /// Whether every class may take all of its actions in all cells.
   [[nodiscard]] bool permit_all() const {
-    for (const ClassRules& own : classes) {
-      if (own.asks_controller || !own.sources.empty()) return false;
+    for (const ClassRules& rules : classes) {
+      if (rules.asks_controller || !rules.sources.empty()) return false;
     }
     return true;
   }

@@ -57,12 +57,12 @@ bool ForbiddenChoices::find(const RowPlace& place, const RowGroups& groups,
 /// Joins the masks of the actions that `allow` does not tell apart.
 void ForbiddenChoices::join_groups(std::size_t c, const ActionGroups& groups, const std::vector<Word>& masks,
                                    Workspace& work) const {
-  const ActionGroups& own = *work.groups.classes[c];
+  const ActionGroups& class_groups = *work.groups.classes[c];
   const std::size_t words = pairs_.front().engine().row_words();
-  work.masks[c].assign(own.size() * words, 0);
-  work.joined.assign(own.size() * groups.size(), 0);
-  for (std::size_t a = 0; a < own.group_of.size(); ++a) {
-    const std::size_t to = own.group_of[a], from = groups.group_of[a];
+  work.masks[c].assign(class_groups.size() * words, 0);
+  work.joined.assign(class_groups.size() * groups.size(), 0);
+  for (std::size_t a = 0; a < class_groups.group_of.size(); ++a) {
+    const std::size_t to = class_groups.group_of[a], from = groups.group_of[a];
     std::uint8_t& is_joined = work.joined[to * groups.size() + from];
     for (std::size_t w = 0; is_joined == 0 && w < words; ++w)
       work.masks[c][to * words + w] |= masks[from * words + w];
@@ -80,15 +80,15 @@ void ForbiddenChoices::add(std::size_t c, std::int64_t position, Workspace& work
     for (std::size_t w = 0; w < found.size(); ++w) found[w] |= open[w] & ~permitted[w];
     return;
   }
-  const ActionGroups& own = *work.groups.classes[c];
-  for (std::size_t g = 0; g < own.size(); ++g) {
+  const ActionGroups& groups = *work.groups.classes[c];
+  for (std::size_t g = 0; g < groups.size(); ++g) {
     std::vector<Word>& next = work.open[c + 1];
     next.resize(found.size());
     Word any = 0;
     for (std::size_t w = 0; w < found.size(); ++w)
       any |= next[w] = open[w] & work.masks[c][g * found.size() + w] & ~found[w];
     if (any != 0)
-      add(c + 1, position + pairs_.front().contribution(c, 0, own.representative[g]), work, found);
+      add(c + 1, position + pairs_.front().contribution(c, 0, groups.representative[g]), work, found);
   }
 }
 

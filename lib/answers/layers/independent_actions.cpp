@@ -228,17 +228,17 @@ void IndependentActions<Level>::lower_by_one(const Row& row, std::size_t positio
 template <class Level>
 void IndependentActions<Level>::find_worst(std::int64_t row, const RowGroups& groups, std::size_t c,
                                            std::vector<std::uint32_t>& result) const {
-  const ActionGroups& own = *groups.classes[c];
+  const ActionGroups& class_groups = *groups.classes[c];
   result.clear();
-  for (std::uint32_t g = 0; g < own.size(); ++g) {
+  for (std::uint32_t g = 0; g < class_groups.size(); ++g) {
     const ConstRow projection = projections_.mask(row, groups, c, g);
     bool needed = any_set(projection);
-    for (const std::uint32_t h : own.holders[g]) {
+    for (const std::uint32_t h : class_groups.holders[g]) {
       if (!needed) break;
       const ConstRow other = projections_.mask(row, groups, c, h);
       if (!is_subset(projection, other)) continue;
       // The lower one of two groups that cover each other stays.
-      needed = own.is_within(h, g) && g < h && is_subset(other, projection);
+      needed = class_groups.is_within(h, g) && g < h && is_subset(other, projection);
     }
     if (needed) result.push_back(g);
   }

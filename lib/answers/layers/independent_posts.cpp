@@ -6,19 +6,19 @@ namespace coordreq {
 
 /// Finds the groups that can make a difference: reasonable in some cell, with a post inside the domain, and
 /// without another group whose post holds theirs and that is reasonable in all of their cells.
-void IndependentPosts::find_worst(const RowBoxes& boxes, const ActionGroups& own, std::size_t c,
+void IndependentPosts::find_worst(const RowBoxes& boxes, const ActionGroups& groups, std::size_t c,
                                   const std::vector<Word>& masks) {
   worst_.clear();
-  for (std::uint32_t g = 0; g < own.size(); ++g) {
+  for (std::uint32_t g = 0; g < groups.size(); ++g) {
     const ConstRow mask = mask_of(masks, g);
     bool needed = boxes.kind(c, g) == RowBoxes::Kind::box && any_set(mask);
-    for (const std::uint32_t h : own.holders[g]) {
+    for (const std::uint32_t h : groups.holders[g]) {
       if (!needed) break;
       if (boxes.kind(c, h) != RowBoxes::Kind::box) continue;
       const ConstRow other = mask_of(masks, h);
       if (!is_subset(mask, other)) continue;
       // The lower one of two groups that cover each other stays.
-      needed = own.is_within(h, g) && g < h && is_subset(other, mask);
+      needed = groups.is_within(h, g) && g < h && is_subset(other, mask);
     }
     if (needed) worst_.push_back(g);
   }
@@ -58,9 +58,9 @@ void IndependentPosts::split_part(std::size_t p, ConstRow mask) {
 }
 
 /// Finds the boxes that the groups of each part fill together; parts with equal boxes become one.
-void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& own) {
-  own.lists.clear();
-  own.masks.clear();
+void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& class_parts) {
+  class_parts.lists.clear();
+  class_parts.masks.clear();
   for (std::size_t p = 0; p < parts_; ++p) {
     list_.dimensions = boxes.moved(c).size();
     list_.ranges.clear();
@@ -71,25 +71,27 @@ void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassPar
     }
     if (list_.ranges.empty()) continue;  // all of its actions in the part leave for good
     if (joins_boxes_) merge_boxes(list_, longest_);
-    const auto known = std::find_if(own.lists.begin(), own.lists.end(),
+    const auto known = std::find_if(class_parts.lists.begin(), class_parts.lists.end(),
                                     [&](const BoxList& other) { return other.ranges == list_.ranges; });
-    const auto number = static_cast<std::size_t>(known - own.lists.begin());
-    if (known == own.lists.end()) {
-      own.lists.push_back(list_);
-      own.masks.resize(own.masks.size() + words_, 0);
+    const auto number = static_cast<std::size_t>(known - class_parts.lists.begin());
+    if (known == class_parts.lists.end()) {
+      class_parts.lists.push_back(list_);
+      class_parts.masks.resize(class_parts.masks.size() + words_, 0);
     }
-    for (std::size_t w = 0; w < words_; ++w) own.masks[number * words_ + w] |= part_masks_[p * words_ + w];
+    for (std::size_t w = 0; w < words_; ++w)
+      class_parts.masks[number * words_ + w] |= part_masks_[p * words_ + w];
   }
 }
 
 /// Numbers the combinations of the classes' parts that occur.
 void IndependentPosts::join_classes(ConstRow invariant) {
   std::size_t combinations = 1;
-  for (const ClassParts& own : classes_) combinations *= own.lists.size();
+  for (const ClassParts& class_parts : classes_) combinations *= class_parts.lists.size();
   joint_.clear();
-  is_whole_ = combinations == 1 && std::all_of(classes_.begin(), classes_.end(), [&](const ClassParts& own) {
-                return is_subset(invariant, own.masks);
-              });
+  is_whole_ =
+      combinations == 1 && std::all_of(classes_.begin(), classes_.end(), [&](const ClassParts& class_parts) {
+        return is_subset(invariant, class_parts.masks);
+      });
   if (is_whole_) joint_.push_back({0, 0, std::vector<std::uint32_t>(classes_.size(), 0)});
   if (is_whole_ || combinations == 0) return;
   labels_.assign(lanes(), 0);
@@ -131,14 +133,14 @@ void IndependentPosts::join_masks(std::size_t c) {
 void IndependentPosts::join_lanes() {
   joint_.assign(1, {0, 0, {}});
   labels_.assign(lanes(), 1);
-  for (const ClassParts& own : classes_) {
+  for (const ClassParts& class_parts : classes_) {
     own_labels_.assign(lanes(), 0);
-    for (std::size_t i = 0; i < own.lists.size(); ++i) {
-      for_each_bit({own.masks.data() + i * words_, words_}, [&](std::int64_t lane) {
+    for (std::size_t i = 0; i < class_parts.lists.size(); ++i) {
+      for_each_bit({class_parts.masks.data() + i * words_, words_}, [&](std::int64_t lane) {
         own_labels_[static_cast<std::size_t>(lane)] = static_cast<std::uint32_t>(i + 1);
       });
     }
-    const std::size_t choices = own.lists.size() + 1;
+    const std::size_t choices = class_parts.lists.size() + 1;
     joint_before_.swap(joint_);
     joint_.clear();
     numbers_.assign((joint_before_.size() + 1) * choices, 0);
@@ -185,9 +187,9 @@ void IndependentPosts::pack(const RowBoxes& boxes, const RowGroups& groups,
 }
 
 void IndependentPosts::pack_lists(std::vector<Word>& packed) const {
-  for (const ClassParts& own : classes_) {
-    packed.push_back(own.lists.size());
-    for (const BoxList& list : own.lists) {
+  for (const ClassParts& class_parts : classes_) {
+    packed.push_back(class_parts.lists.size());
+    for (const BoxList& list : class_parts.lists) {
       packed.push_back(list.dimensions == 0 ? 1 : list.size());
       for (const IndexRange& range : list.ranges) packed.push_back(pack_range(range));
     }
@@ -198,9 +200,9 @@ void IndependentPosts::pack_parts(std::vector<Word>& packed) const {
   packed.push_back(joint_.size());
   std::size_t offset = 0;
   std::vector<std::size_t> first_list;
-  for (const ClassParts& own : classes_) {
+  for (const ClassParts& class_parts : classes_) {
     first_list.push_back(offset);
-    offset += own.lists.size();
+    offset += class_parts.lists.size();
   }
   for (const JointPart& part : joint_) {
     packed.push_back(static_cast<Word>(part.begin) | static_cast<Word>(part.end) << 32U);

@@ -63,11 +63,11 @@ class IndependentPosts {
     std::vector<Word> masks;     ///< [list * words_] the cells that have the list
   };
 
-  void find_worst(const RowBoxes& boxes, const ActionGroups& own, std::size_t c,
+  void find_worst(const RowBoxes& boxes, const ActionGroups& groups, std::size_t c,
                   const std::vector<Word>& masks);
   void find_parts(const std::vector<Word>& masks, ConstRow invariant);
   void split_part(std::size_t p, ConstRow mask);
-  void find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& own);
+  void find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& class_parts);
   void join_classes(ConstRow invariant);
   void join_masks(std::size_t c);
   void join_lanes();

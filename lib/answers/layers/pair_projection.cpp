@@ -71,11 +71,11 @@ void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
   }
 }
 
-void PairProjection::enter_unit(const RowPlace& place, const ActionGroups& own) {
+void PairProjection::enter_unit(const RowPlace& place, const ActionGroups& groups) {
   const std::int64_t unit = place.row / unit_rows_;
   if (leading_ == 0 || unit == unit_) return;
   unit_ = unit;
-  planes_.resize(own.size());
+  planes_.resize(groups.size());
   for (Plane& plane : planes_) plane.is_known = false;
 }
 
@@ -146,15 +146,15 @@ void PairProjection::continue_row(ConstRow row, Word* out) const {
 /// of the row.
 void PairProjection::list(const RowGroups& groups, std::size_t c, ConstRow invariant,
                           std::vector<Candidate>& candidates) {
-  const ActionGroups& own = *groups.classes[c];
+  const ActionGroups& class_groups = *groups.classes[c];
   const std::vector<std::size_t>& moved = boxes_.moved(c);
-  candidates.resize(own.size());
+  candidates.resize(class_groups.size());
   std::size_t count = 0;
-  for (std::uint32_t g = 0; g < own.size(); ++g) {
+  for (std::uint32_t g = 0; g < class_groups.size(); ++g) {
     if (boxes_.kind(c, g) == RowBoxes::Kind::blocked) continue;
     Candidate& candidate = candidates[count++];
     candidate.group = g;
-    candidate.is_minimal = std::binary_search(own.minimal.begin(), own.minimal.end(), g);
+    candidate.is_minimal = std::binary_search(class_groups.minimal.begin(), class_groups.minimal.end(), g);
     candidate.is_full = false;
     candidate.reach.assign(invariant.begin(), invariant.end());
     found_.assign(words_, 0);

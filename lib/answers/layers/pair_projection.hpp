@@ -63,7 +63,7 @@ class PairProjection {
   };
 
   void find_beyond();
-  void enter_unit(const RowPlace& place, const ActionGroups& own);
+  void enter_unit(const RowPlace& place, const ActionGroups& groups);
   [[nodiscard]] const Plane& plane(std::uint32_t group);
   [[nodiscard]] const std::vector<Word>& continued(std::int64_t row);
   void continue_row(ConstRow row, Word* out) const;

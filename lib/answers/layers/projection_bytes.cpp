@@ -11,8 +11,9 @@ namespace {
 /// True if no state is moved by two classes, so that projections are kept as boxes of posts.
 bool is_product(const Model& model, const std::vector<InputClass>& classes) {
   return std::ranges::all_of(model.shapes(), [&](const TableShape& shape) {
-    return std::ranges::count_if(classes, [&](const InputClass& own) {
-             return std::ranges::any_of(shape.inputs, [&](std::int32_t j) { return own.contains(j); });
+    return std::ranges::count_if(classes, [&](const InputClass& input_class) {
+             return std::ranges::any_of(shape.inputs,
+                                        [&](std::int32_t j) { return input_class.contains(j); });
            }) <= 1;
   });
 }

@@ -202,21 +202,21 @@ class Projections::Builder {
 
   /// Finds the masks of class c, larger posts first: where they are reasonable, those inside them are, too.
   void find_masks(const RowPlace& place, std::size_t c) {
-    const ActionGroups& own = *groups_.classes[c];
-    masks_[c].assign(own.size() * members_.size(), 0);
-    known_.assign(own.size(), 0);
-    for (const std::uint32_t g : own.maximal) find_mask(place, c, g);
-    for (const std::uint32_t g : own.all) {
+    const ActionGroups& groups = *groups_.classes[c];
+    masks_[c].assign(groups.size() * members_.size(), 0);
+    known_.assign(groups.size(), 0);
+    for (const std::uint32_t g : groups.maximal) find_mask(place, c, g);
+    for (const std::uint32_t g : groups.all) {
       if (known_[g] == 0) find_mask(place, c, g);
     }
   }
 
   void find_mask(const RowPlace& place, std::size_t c, std::uint32_t g) {
-    const ActionGroups& own = *groups_.classes[c];
+    const ActionGroups& groups = *groups_.classes[c];
     const ConstRow invariant = controller_.invariant->row(place.row);
     const MutableRow mask(masks_[c].data() + g * members_.size(), members_.size());
-    for (const std::uint32_t h : own.maximal) {
-      if (known_[h] == 0 || !own.is_within(g, h)) continue;
+    for (const std::uint32_t h : groups.maximal) {
+      if (known_[h] == 0 || !groups.is_within(g, h)) continue;
       for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= masks_[c][h * mask.size() + w];
     }
     known_[g] = 1;

@@ -25,9 +25,9 @@ struct Network {
     }
     target.assign(spec.modes.size(), Members(static_cast<std::size_t>(context.grid->cells()), 1));
     for (const auto& [from, to] : spec.transitions) {
-      Members& own = target[static_cast<std::size_t>(from)];
+      Members& members = target[static_cast<std::size_t>(from)];
       const Members& next = context.claims->members(kNetworkSafe, static_cast<std::size_t>(to));
-      for (std::size_t x = 0; x < own.size(); ++x) own[x] = own[x] & next[x];
+      for (std::size_t x = 0; x < members.size(); ++x) members[x] = members[x] & next[x];
     }
   }
 

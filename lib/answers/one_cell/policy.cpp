@@ -6,7 +6,7 @@ std::vector<CellPolicy::Numbers> CellPolicy::alone(std::int64_t /*cell*/, std::i
                                                    const Numbers& together,
                                                    const std::vector<InputClass>& classes) {
   std::vector<Numbers> actions;
-  for (const InputClass& own : classes) actions.push_back(own.project(together));
+  for (const InputClass& input_class : classes) actions.push_back(input_class.project(together));
   return actions;
 }
 

@@ -18,15 +18,15 @@ bool ProgressInputs::leaves_through_safe_side(std::int64_t u) const {
 }
 
 std::int32_t ProgressInputs::worst_in(const std::vector<IndexRange>& box) {
-  const auto [place, is_new] = known_.try_emplace(box, 0);
+  const auto [entry, is_new] = known_.try_emplace(box, 0);
   if (is_new) {
-    for_each_cell(posts_.grid(), box, [&worst = place->second, this](std::int64_t y) {
+    for_each_cell(posts_.grid(), box, [&worst = entry->second, this](std::int64_t y) {
       const std::int32_t own = arrival_(y);
       worst = std::max(worst, own < 0 ? INT32_MAX : own);
       return worst < INT32_MAX;
     });
   }
-  return place->second;
+  return entry->second;
 }
 
 std::int32_t ProgressInputs::worst(std::int64_t x, std::int64_t u) {

@@ -74,10 +74,10 @@ Json step_json(const ResultPath& path, std::size_t step, RequirementKind kind, c
   json["action"] = phase_word(path.phase[step]);
   json["inputs"] = Json::object();
   for (const AgentSpec& agent : spec.agents) {
-    Json& own = json["inputs"][agent.name] = Json::object();
+    Json& entry = json["inputs"][agent.name] = Json::object();
     for (const std::int32_t i : agent.inputs) {
       const auto input = static_cast<std::size_t>(i);
-      own[spec.inputs[input].name] = path.input[step * spec.inputs.size() + input];
+      entry[spec.inputs[input].name] = path.input[step * spec.inputs.size() + input];
     }
   }
   return json;
@@ -200,16 +200,18 @@ void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json&
   info["requirements"] = Json::array();
   const std::vector<ResultRequirement> results = read_requirement_values(spec, source);
   for (std::size_t r = 0; r < results.size(); ++r) {
-    const ResultRequirement& own = results[r];
+    const ResultRequirement& requirement = results[r];
     const RequirementKind kind = spec.requirements[r].kind;
-    Json& json = info["requirements"].emplace_back(
-        Json{{"name", own.name}, {"holds", own.holds}, {"cells", own.cells}, {"failing", own.failing}});
+    Json& json = info["requirements"].emplace_back(Json{{"name", requirement.name},
+                                                        {"holds", requirement.holds},
+                                                        {"cells", requirement.cells},
+                                                        {"failing", requirement.failing}});
     if (traits(kind).is_probability) {
-      put_risk(json, traits(kind).worst(), own.risk);
+      put_risk(json, traits(kind).worst(), requirement.risk);
     } else {
-      put_value(json, traits(kind).worst(), kind, own.least_delay);
+      put_value(json, traits(kind).worst(), kind, requirement.least_delay);
     }
-    json["counterexample_steps"] = own.path ? Json(own.path->steps()) : Json();
+    json["counterexample_steps"] = requirement.path ? Json(requirement.path->steps()) : Json();
   }
 }
 

@@ -277,9 +277,10 @@ void PathChecker::check_goal_end() {
 }
 
 bool PathChecker::is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const {
-  return std::all_of(classes_.begin(), classes_.end(), [&](const InputClass& own) {
+  return std::all_of(classes_.begin(), classes_.end(), [&](const InputClass& input_class) {
     for (std::size_t v = 0; v < joint.size(); ++v) {
-      if (joint[v] != 0 && own.action(static_cast<std::int64_t>(v)) == own.action(u)) return true;
+      if (joint[v] != 0 && input_class.action(static_cast<std::int64_t>(v)) == input_class.action(u))
+        return true;
     }
     return false;
   });

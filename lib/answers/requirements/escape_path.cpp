@@ -91,12 +91,12 @@ class EscapeFinder : public EscapeRun {
   /// The product of the projections of joint inputs onto the classes.
   [[nodiscard]] std::vector<bool> independent(const std::vector<std::int64_t>& joint) const {
     std::vector<bool> result(static_cast<std::size_t>(posts_.inputs().count()), true);
-    for (const InputClass& own : sets_.classes) {
-      std::vector<bool> projection(static_cast<std::size_t>(own.actions()), false);
-      for (const std::int64_t a : own.project(joint)) projection[static_cast<std::size_t>(a)] = true;
+    for (const InputClass& input_class : sets_.classes) {
+      std::vector<bool> projection(static_cast<std::size_t>(input_class.actions()), false);
+      for (const std::int64_t a : input_class.project(joint)) projection[static_cast<std::size_t>(a)] = true;
       for (std::size_t u = 0; u < result.size(); ++u)
-        result[u] =
-            result[u] && projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))];
+        result[u] = result[u] &&
+                    projection[static_cast<std::size_t>(input_class.action(static_cast<std::int64_t>(u)))];
     }
     return result;
   }

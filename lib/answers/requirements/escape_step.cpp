@@ -40,14 +40,14 @@ std::optional<EscapeChoice> EscapeSteps::find(std::int64_t cell, const LevelMap&
 std::int64_t EscapeSteps::worst_level(const CellPost& post, const LevelMap& levels, Known& known) const {
   if (post.blocked != CellPost::Blocked::no) return 0;
   if (post.all_left) return INT64_MAX;
-  const auto [place, is_new] = known.try_emplace(post.box, INT64_MAX);
+  const auto [entry, is_new] = known.try_emplace(post.box, INT64_MAX);
   if (is_new) {
-    for_each_cell(posts_.grid(), post.box, [&worst = place->second, &levels](std::int64_t next) {
+    for_each_cell(posts_.grid(), post.box, [&worst = entry->second, &levels](std::int64_t next) {
       worst = std::min(worst, level_of(levels, next));
       return worst > 0;
     });
   }
-  return place->second;
+  return entry->second;
 }
 
 bool EscapeSteps::follows(std::int64_t cell, const EscapeChoice& choice, const LevelMap& levels) {

@@ -58,13 +58,13 @@ std::optional<Rational> RealRun::next(std::size_t state, std::int64_t u) {
   std::int64_t key = 0;
   for (const std::int32_t j : dynamics_.dependencies(state).inputs)
     key += inputs.index(u, at(j)) * inputs.stride(at(j));
-  const auto [place, is_new] = known_[state].try_emplace(key);
-  if (!is_new) return place->second;
+  const auto [entry, is_new] = known_[state].try_emplace(key);
+  if (!is_new) return entry->second;
   for (const std::int32_t j : dynamics_.dependencies(state).inputs)
     slots_[spec_.input_slot(at(j))] = inputs[at(j)].values[at(inputs.index(u, at(j)))];
   if (const std::optional<Rational> value = dynamics_.next(state, slots_))
-    place->second = shortened(reset_at_sample(dimension(state), *value));
-  return place->second;
+    entry->second = shortened(reset_at_sample(dimension(state), *value));
+  return entry->second;
 }
 
 RealRun::Place RealRun::after(std::int64_t cell, std::int64_t u) {

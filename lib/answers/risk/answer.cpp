@@ -116,9 +116,9 @@ void find_risks(Answers& answers, const StageWork& work) {
     };
     const auto step = step_of(work, *context.engine, save);
     const RiskWatch watch{.step =
-                              [&](const WaveStep& own, std::int64_t done) {
+                              [&](const WaveStep& inner_step, std::int64_t done) {
                                 steps = done;
-                                step(own);
+                                step(inner_step);
                               },
                           .resumed = kept == StageStore::Kept::unfinished ? &state : nullptr};
     const ExpectedRisks expected(*context.spec.network);
@@ -131,7 +131,7 @@ void find_risks(Answers& answers, const StageWork& work) {
   work.store->finish([&answers](Archive& archive) {
     const Risk& risk = answers.get<RiskAnswer>().risk;
     std::vector<NumberRows> rows;
-    for (const RiskRows& own : risk.risks) rows.push_back(rows_of(own));
+    for (const RiskRows& risk_rows : risk.risks) rows.push_back(rows_of(risk_rows));
     save_state(archive, answers.context.shared_rows(), answers.context.spec.risk->horizon, risk.rate, rows);
   });
 }

@@ -85,8 +85,8 @@ Ranked rank_expected(const Outgoing& outgoing, const std::vector<std::vector<Num
   std::sort(result.risks.begin(), result.risks.end(), std::greater<>());
   result.risks.erase(std::unique(result.risks.begin(), result.risks.end()), result.risks.end());
   for (const double own : all) {
-    const auto place = std::lower_bound(result.risks.begin(), result.risks.end(), own, std::greater<>());
-    result.rank.push_back(static_cast<std::int32_t>(place - result.risks.begin()));
+    const auto found = std::lower_bound(result.risks.begin(), result.risks.end(), own, std::greater<>());
+    result.rank.push_back(static_cast<std::int32_t>(found - result.risks.begin()));
   }
   return result;
 }
@@ -95,7 +95,7 @@ template <class Number>
 std::vector<Ranked> rank_all(const std::vector<Outgoing>& outgoing,
                              const std::vector<std::vector<Number>>& risks) {
   std::vector<Ranked> result;
-  for (const Outgoing& own : outgoing) result.push_back(rank_expected(own, risks));
+  for (const Outgoing& from : outgoing) result.push_back(rank_expected(from, risks));
   return result;
 }
 
@@ -163,7 +163,7 @@ struct RiskClaims {
         outgoing(outgoing_of(*spec.network)),
         after(rank_all(outgoing, risks)) {
     std::size_t most = 0;
-    for (const Outgoing& own : outgoing) most = std::max(most, own.successors.size());
+    for (const Outgoing& from : outgoing) most = std::max(most, from.successors.size());
     // An operation is off by at most half of epsilon; there are four for each successor.
     rounding = (4.0 * static_cast<double>(most) + 8) * std::numeric_limits<double>::epsilon();
   }

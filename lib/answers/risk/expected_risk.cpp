@@ -123,10 +123,10 @@ ExpectedRisks::ExpectedRisks(const NetworkSpec& network) {
     });
   };
   std::map<std::vector<Successor>, std::size_t, decltype(is_less)> known(is_less);
-  for (std::vector<Successor>& own : successors) {
-    const auto [place, is_new] = known.try_emplace(std::move(own), different.size());
-    if (is_new) different.emplace_back(place->first);
-    of_mode.push_back(place->second);
+  for (std::vector<Successor>& list : successors) {
+    const auto [entry, is_new] = known.try_emplace(std::move(list), different.size());
+    if (is_new) different.emplace_back(entry->first);
+    of_mode.push_back(entry->second);
   }
 }
 

@@ -18,14 +18,14 @@ namespace {
 ResultArray risk_array(const Risk& risk, const CellOrder& order) {
   return {ElementType::float32, [&](std::uint64_t begin, std::uint64_t count, void* out) {
             const auto cells = static_cast<std::uint64_t>(order.cells());
-            for (auto* place = static_cast<float*>(out); count > 0;) {
+            for (auto* target = static_cast<float*>(out); count > 0;) {
               const std::uint64_t first = begin % cells;
               const std::uint64_t here = std::min(count, cells - first);
-              convert_stretch(risk.risks[begin / cells], order, first, here, place,
+              convert_stretch(risk.risks[begin / cells], order, first, here, target,
                               [](std::uint32_t level) { return risk_of(level); });
               begin += here;
               count -= here;
-              place += here;
+              target += here;
             }
           }};
 }

@@ -41,25 +41,27 @@ ModeChoices::ModeChoices(const Controller& controller, const std::vector<std::ve
     : controller_(controller) {
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const std::vector<InputClass>& classes = partitions[p];
-    Partition& own = partitions_.emplace_back();
-    own.projections = silent[p];
-    if (own.projections != nullptr) continue;
-    own.is_safest = is_safest && classes.size() == 1;
-    own.grouping = &groupings_.emplace_back(
-        *controller.engine, own.is_safest ? single_classes(controller.engine->abstraction().inputs) : classes,
-        team);
-    if (!own.is_safest) own.projections = &projections_.emplace_back(controller, *own.grouping, team);
+    Partition& partition = partitions_.emplace_back();
+    partition.projections = silent[p];
+    if (partition.projections != nullptr) continue;
+    partition.is_safest = is_safest && classes.size() == 1;
+    partition.grouping = &groupings_.emplace_back(
+        *controller.engine,
+        partition.is_safest ? single_classes(controller.engine->abstraction().inputs) : classes, team);
+    if (!partition.is_safest)
+      partition.projections = &projections_.emplace_back(controller, *partition.grouping, team);
   }
 }
 
 template <class Level>
 std::vector<std::unique_ptr<ModeRisk<Level>>> ModeChoices::operators(int workers) const {
   std::vector<std::unique_ptr<ModeRisk<Level>>> result;
-  for (const Partition& own : partitions_) {
-    if (own.is_safest) {
-      result.push_back(std::make_unique<LeastRisk<Level>>(*own.grouping, workers));
+  for (const Partition& partition : partitions_) {
+    if (partition.is_safest) {
+      result.push_back(std::make_unique<LeastRisk<Level>>(*partition.grouping, workers));
     } else {
-      result.push_back(std::make_unique<WorstRisk<Level>>(*own.projections, *controller_.invariant, workers));
+      result.push_back(
+          std::make_unique<WorstRisk<Level>>(*partition.projections, *controller_.invariant, workers));
     }
   }
   return result;

@@ -232,7 +232,7 @@ std::vector<RiskRows> first_risks(const CellSet& invariant, std::size_t modes, c
       std::fill(lanes.begin(), lanes.end(), kCertain<std::uint32_t>);
       for_each_bit(invariant.row(row),
                    [&](std::int64_t x) { lanes[static_cast<std::size_t>(x)] = RiskRows::kTop; });
-      for (RiskRows& own : risks) own.put(row, lanes.data());
+      for (RiskRows& rows : risks) rows.put(row, lanes.data());
     }
   }
   return risks;

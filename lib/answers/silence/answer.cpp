@@ -75,7 +75,7 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   const AnalysisContext& context = answers.context;
   const ProblemSpec& spec = context.spec;
   const CoordinationSpec& coordination = spec.coordination;
-  SilencePartition& own = silence_in(answers).partitions[p];
+  SilencePartition& partition = silence_in(answers).partitions[p];
   const CellSet& set = silence_set(answers);
   CellSet part;
   const CellSet& asked = going_on(context, set, part);
@@ -84,20 +84,20 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   const AgentRules rules{spec.silence->actions, "actions"};
   const std::int64_t steps = context.engine->grid().points();
   const LevelBounds bounds{&set, coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
-  find_or_take_levels(work, *context.engine, bounds, own.layers.layers_of, [&](const WaveWatch& watch) {
+  find_or_take_levels(work, *context.engine, bounds, partition.layers.layers_of, [&](const WaveWatch& watch) {
     work.enter_part("projections");
     const SilentActions actions(answers, rules, classes, asked, work.team);
     work.enter_part("");
-    own.lacking = sums(context, actions);
+    partition.lacking = sums(context, actions);
     DelayLayers found = find_delay_layers(*context.engine, *context.hull, set, actions.projections, {},
                                           coordination.max_delay, watch, work.team, context.over_or_null());
-    own.layers.counts = found.counts;
+    partition.layers.counts = found.counts;
     return std::move(found.layers_of);
   });
   // Kept levels do not have these counts.
-  if (own.lacking.empty())
-    own.lacking = sums(context, SilentActions(answers, rules, classes, asked, work.team));
-  follow_from_levels(coordination.max_delay, work.team, own.layers);
+  if (partition.lacking.empty())
+    partition.lacking = sums(context, SilentActions(answers, rules, classes, asked, work.team));
+  follow_from_levels(coordination.max_delay, work.team, partition.layers);
 }
 
 std::string stage_name(const ProblemSpec& spec, std::size_t p) {

@@ -63,8 +63,8 @@ class SilenceChecker : public CellChecker {
   SilenceChecker(const CheckContext& context, SetOfSilence& set, std::deque<PartitionOfSilence>& partitions)
       : context_(context), set_(set), partitions_(partitions) {
     const SilenceSpec& silence = *context.spec->silence;
-    for (const PartitionOfSilence& own : partitions)
-      actions_.emplace_back(context, silence.actions, "actions", own.claims.partition.classes);
+    for (const PartitionOfSilence& partition : partitions)
+      actions_.emplace_back(context, silence.actions, "actions", partition.claims.partition.classes);
     if (silence.has_then()) then_.emplace(context, silence.then, "then", single_agents(*context.spec));
   }
 
@@ -73,10 +73,10 @@ class SilenceChecker : public CellChecker {
     const bool is_member = cell.is_safe() && set_.members[cell.at()] != 0;
     if (then_) check_member(cell, is_member);
     for (std::size_t p = 0; p < partitions_.size(); ++p) {
-      PartitionOfSilence& own = partitions_[p];
+      PartitionOfSilence& partition = partitions_[p];
       std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
-      if (is_member) expected = silence_by_definition(cell, own, actions_[p]);
-      compare(own.silence, cell, own.claims.delay[cell.at()], expected);
+      if (is_member) expected = silence_by_definition(cell, partition, actions_[p]);
+      compare(partition.silence, cell, partition.claims.delay[cell.at()], expected);
     }
   }
 
@@ -89,19 +89,20 @@ class SilenceChecker : public CellChecker {
                          [&] { return cell.place() + ": what comes after does not keep it there"; });
   }
 
-  [[nodiscard]] static std::int32_t silence_by_definition(CheckedCell& cell, const PartitionOfSilence& own,
+  [[nodiscard]] static std::int32_t silence_by_definition(CheckedCell& cell,
+                                                          const PartitionOfSilence& partition,
                                                           RuledChoices& actions) {
     std::int32_t worst = kForever;
     const bool is_over = cell.is_over();
     const auto choices = is_over ? std::vector<std::int64_t>() : actions.of(cell.number(), cell.admitted());
     for (const std::int64_t u : choices) {
       const std::int32_t least =
-          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, own.claims.delay, kOutsideInvariant);
+          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, partition.claims.delay, kOutsideInvariant);
       worst = std::min(worst, std::max(least, kOutsideInvariant));
       if (worst == kOutsideInvariant) break;
     }
     const std::int32_t silence = choices.empty() && !is_over ? 0 : one_more(worst);
-    return own.most ? std::min(silence, static_cast<std::int32_t>(*own.most)) : silence;
+    return partition.most ? std::min(silence, static_cast<std::int32_t>(*partition.most)) : silence;
   }
 
   void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
@@ -129,8 +130,8 @@ class SilenceCheck : public AnswerCheck {
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::vector<Finding> findings;
     std::size_t longest = 1;
-    for (const PartitionOfSilence& own : partitions_)
-      findings.push_back(compare_layers(*context_.spec, *context_.claims, own.claims, longest));
+    for (const PartitionOfSilence& partition : partitions_)
+      findings.push_back(compare_layers(*context_.spec, *context_.claims, partition.claims, longest));
     sizes.expect("length of /silence_layer", partitions_.front().claims.layer_sizes.size(), longest);
     if (set_.has_then) {
       const std::vector<std::uint64_t>& cells = context_.claims->at("/silence_set").cells;
@@ -148,7 +149,7 @@ class SilenceCheck : public AnswerCheck {
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
     if (set_.has_then) result.push_back(set_.tally.finding());
-    for (const PartitionOfSilence& own : partitions_) result.push_back(own.silence.finding());
+    for (const PartitionOfSilence& partition : partitions_) result.push_back(partition.silence.finding());
     return result;
   }
 

@@ -59,15 +59,15 @@ SilentRules rules_of(const AgentRules& rules, const Classes& classes, const Tabl
     result.tables[next++] = &*tables[i];
   }
   for (const std::vector<std::int32_t>& agents : classes) {
-    ClassRules& own = result.classes.emplace_back();
-    own.agent = at(agents.front());
+    ClassRules& class_rules = result.classes.emplace_back();
+    class_rules.agent = at(agents.front());
     for (const std::int32_t i : agents) {
       const bool has_rule = rules.conditions[at(i)].has_value();
-      if (!has_rule && !own.asks_controller) own.agent = at(i);
-      own.asks_controller = own.asks_controller || !has_rule;
+      if (!has_rule && !class_rules.asks_controller) class_rules.agent = at(i);
+      class_rules.asks_controller = class_rules.asks_controller || !has_rule;
       if (!tables[at(i)]) continue;
-      own.sources.push_back(source_of_agent[at(i)]);
-      own.agents.push_back(at(i));
+      class_rules.sources.push_back(source_of_agent[at(i)]);
+      class_rules.agents.push_back(at(i));
     }
   }
   return result;
@@ -93,7 +93,8 @@ double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& cla
     tables = std::max(tables, own);
   }
   double masks = sizes.set();  // the set of cells where a class has no action
-  for (const InputClass& own : classes) masks += sizes.set() * static_cast<double>(own.actions());
+  for (const InputClass& input_class : classes)
+    masks += sizes.set() * static_cast<double>(input_class.actions());
   return tables + masks;
 }
 
