@@ -48,7 +48,11 @@ bool follows_itself(const PostQuestion& question, const Influences& influences) 
   for (const std::size_t l : influences.disturbances)
     everything[spec.disturbance_slot(l)] =
         span_of(spec.disturbances[l].lower, spec.disturbances[l].upper).all();
-  return MapExtremes(spec, influences, question.state).follows(everything, spec.state_slot(question.state));
+  // The difference is taken with the state at 0, which need not be in the domain: sign(x) is another constant
+  // there.
+  const std::uint32_t slot = spec.state_slot(question.state);
+  everything[slot] = hull(everything[slot], Arb(0.0));
+  return MapExtremes(spec, influences, question.state).follows(everything, slot);
 }
 
 /// Tables that one enclosure serves.

@@ -34,6 +34,19 @@ TEST(VerifyClaims, EnclosuresHoldWithAndWithoutTheStoredAbstraction) {
   EXPECT_TRUE(stored.borrowed.empty());
 }
 
+/// In the domain the state follows itself, elsewhere it does not.
+TEST(VerifyClaims, AMapThatJumpsBeyondTheDomainHolds) {
+  ThreadTeam team(2);
+  const Verification found = verify_file(analysed_file(R"json({"coordreq": 1, "name": "jump",
+"states": [{"name": "x", "lower": -6, "upper": -1, "count": 5, "outside": "periodic"}],
+"inputs": [{"name": "u", "values": [-0.5, 0.25]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + 6*sign(x) + u"}}, "safe": "true"})json",
+                                                       team),
+                                         {}, team);
+  EXPECT_EQ(complaints(found), "");
+  EXPECT_EQ(found.confirmed, found.enclosed);
+}
+
 TEST(VerifyClaims, AStoredRangeThatLeavesOutACellIsFound) {
   ThreadTeam team(2);
   const ClaimedFile file = analysed_file(storing_everything(kFriction), team);
