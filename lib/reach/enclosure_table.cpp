@@ -96,18 +96,25 @@ class EnclosureTable {
     return cells_meeting(target_, spec_.abstraction.cells, value);
   }
 
-  /// From both bounds: where the state is, and how far it can have moved from the exact piece it started in.
+  /// From both bounds, as far as there are: where the state is, and how far it can have moved from the exact
+  /// piece it started in. An end can have a bound where the way there has none.
   [[nodiscard]] IndexRange tube_indices(const StateEnclosure::Result& result,
                                         const std::vector<std::int64_t>& choice,
                                         const std::vector<std::int64_t>& piece) const {
     if (result.status != StateEnclosure::Status::ok) return kEverywhere;  // and so is its post
+    const bool is_bounded = result.tube.is_finite();
+    if (!is_bounded && !result.drift.is_finite()) return kEverywhere;
     if (differences_) {
-      return cells_covering_shifted(target_, intersect(result.tube, result.drift).value_or(result.tube));
+      return cells_covering_shifted(
+          target_, intersect(result.tube, result.drift).value_or(is_bounded ? result.tube : result.drift));
     }
+    if (!result.drift.is_finite())
+      return cells_covering(target_, exact(result.tube.lower), exact(result.tube.upper));
     const Piece& start =
         own_pieces_[static_cast<std::size_t>(choice[own_])][static_cast<std::size_t>(piece[own_])];
     const Rational from_below = start.lower + exact(result.drift.lower);
     const Rational from_above = start.upper + exact(result.drift.upper);
+    if (!is_bounded) return cells_covering(target_, from_below, from_above);
     return cells_covering(target_, std::max(from_below, exact(result.tube.lower)),
                           std::min(from_above, exact(result.tube.upper)));
   }

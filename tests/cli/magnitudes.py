@@ -31,7 +31,8 @@ def _term(rng, names, factors):
     c = _number(rng, -300, 100)
     return f"({c})*" + rng.choice(
         [a, f"{a}*{b}", f"sin({a})", f"cos({_number(rng, -3, 3)}*{a})", f"abs({a})", f"tan({a}/4)", f"{a}^2",
-         f"if({a} > 0, {b}, {b})", f"if({a} > 0, 1, 1)", f"max({a}, {b})", "1", *factors]
+         f"if({a} > 0, {b}, {b})", f"if({a} > 0, 1, 1)", f"max({a}, {b})", "1", f"sign({a})", f"exp({a})", f"tanh({a})",
+         f"sqrt(abs({a}))", f"log(abs({a}))", f"{a}/{b}", *factors]
     )  # fmt: skip
 
 
@@ -45,11 +46,12 @@ def wild_system(seed):
         step = rng.uniform(1, 10) * 10.0 ** rng.randint(-12, 5) if rng.random() < 0.5 else rng.choice([0.1, 0.25, 1])
         if rng.random() < 0.25:
             half = rng.choice([1, 2, "pi", "2*pi", 0.5])
-            lower, upper = (f"-{half}", half) if isinstance(half, str) else (-half, half)
+            middle = rng.choice([0, 0, -3, 7])
+            lower, upper = f"{middle} - {half}", f"{middle} + {half}"
             states.append({"name": name, "lower": lower, "upper": upper, "count": count, "outside": "periodic"})
             continue
         outside = rng.choice(["unsafe", "saturate", "safe", "stop"])
-        first = rng.choice([0, -count // 2])
+        first = rng.choice([0, -count // 2, 1, -count - 1])
         states.append({"name": name, "lower": f"{first}*{step!r}", "upper": f"{first + count - 1}*{step!r}",
                        "step": f"{step!r}", "outside": outside})  # fmt: skip
     discrete = rng.random() < 0.25
@@ -62,6 +64,10 @@ def wild_system(seed):
         terms = [_term(rng, names, ["u", "v"]) for _ in range(rng.randint(1, 2))]
         equations[name] = " + ".join(([name] if discrete and rng.random() < 0.5 else []) + terms)
     period = 10.0 ** rng.uniform(-6, 2) if rng.random() < 0.5 else rng.choice([0.1, 0.5, 1])
+    wide = abs(float(_number(rng, -12, 2)))
+    noise = [{"name": "w", "lower": -wide, "upper": wide}] if rng.random() < 0.15 else []
+    if noise:
+        equations[names[0]] += " + w"
     return {
         "coordreq": 1,
         "name": f"wild{seed}",
@@ -70,8 +76,9 @@ def wild_system(seed):
         "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
         "dynamics": {"time": "discrete" if discrete else "continuous", "period": float(f"{period:.4g}"),
                      "equations": equations},
+        "disturbances": noise,
         "safe": "true",
-        "abstraction": {"cells": rng.choice(["closed", "half_open"])},
+        "abstraction": {"cells": rng.choice(["closed", "half_open"]), "between_samples": not discrete and rng.random() < 0.25},
         "output": {"abstraction": rng.random() < 0.7},
     }  # fmt: skip
 

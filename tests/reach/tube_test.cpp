@@ -96,6 +96,20 @@ TEST(Tube, HoldsEverySignalOfTheDisturbance) {
   EXPECT_EQ(a.raw_tube(0, cell, 0), (IndexRange{47, 52}));
 }
 
+/// From beyond 710 exp(x) is no double. A solution is enclosed from some cells, where its way has no bound,
+/// and not from others: that is an error, and nothing else.
+TEST(Tube, TheEndMayHaveABoundWhereTheWayHasNone) {
+  const SystemSpec spec = read_system(R"json({"coordreq": 1, "name": "t",
+"states": [{"name": "x", "lower": -3006, "upper": 2404.8, "count": 9, "outside": "saturate"}],
+"inputs": [{"name": "u", "values": [-30, -0.4, 0.2254]}, {"name": "v", "values": [-0.5, 8]}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "continuous", "period": 0.01,
+"equations": {"x": "-0.3058*(exp(x) - v/1e44) + 0.9666*tan(v + u) + v"}}, "safe": "true",
+"abstraction": {"safe": "center", "between_samples": true}})json",
+                                      "t");
+  EXPECT_THROW(static_cast<void>(test::build(spec)), SpecError);
+}
+
 TEST(Tube, RoundingAloneAsksForNoNeighbour) {
   // x only falls, from cells whose faces are no doubles: the upper end of the tube is the exact face.
   const Abstraction falling = test::build(flow(kLine, R"json("x": "if(u > 0, u, u) - 1 - 0.1*x^2")json"));
