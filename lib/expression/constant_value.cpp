@@ -56,7 +56,7 @@ Constant evaluate(const Program& program) {
 }  // namespace
 
 Rational constant_value(const Program& program, std::string_view where) {
-  const std::string text = quoted(program.text);
+  const std::string text = in_quotes(program.text);
   if (program.is_condition()) throw SpecError("expected a number, found a condition", where);
   if (!program.variables().empty()) throw SpecError(fmt::format("{} is not a constant", text), where);
   const Constant result = evaluate(program);

@@ -44,7 +44,7 @@ void Place::fail(std::string_view what, std::size_t offset) const {
   throw SpecError(what, at(offset));
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   REQUIRES(std::ranges::all_of(text, is_quotable));
   constexpr std::size_t kMost = 40;
   const std::string_view dots = text.size() > kMost ? "..." : "";

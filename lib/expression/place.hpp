@@ -21,7 +21,7 @@ struct Place {
 
 /// `text` in quotes and on one line for a message, shortened if long. @pre ASCII, no control characters but
 /// white space; what the grammar accepts is that
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// The character at the start of `text` as a message may show it: printable ASCII in quotes, anything else by
 /// its code point ("U+00E9") or, in broken UTF-8, by its byte; a terminal never gets to see control

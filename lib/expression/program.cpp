@@ -112,7 +112,7 @@ class Linker {
     // A constant of other languages is rather meant than a name that is spelt alike.
     const std::string meant = meant_constant(name);
     const std::string& hint = meant.empty() ? std::get<NotDefined>(binding).hint : meant;
-    place_.fail(fmt::format("{} is not defined{}", quoted(name), hint), offset);
+    place_.fail(fmt::format("{} is not defined{}", in_quotes(name), hint), offset);
   }
 
   void require_number(const Value& value) const {

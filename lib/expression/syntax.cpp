@@ -213,7 +213,8 @@ class Parser {
     const bool is_plain =
         end != std::string_view::npos && !inside.empty() &&
         std::all_of(inside.begin(), inside.end(), [](char c) { return c >= ' ' && c <= '~'; });
-    return fmt::format(", did you mean {}?", quoted(is_plain ? fmt::format("abs({})", inside) : "abs(...)"));
+    return fmt::format(", did you mean {}?",
+                       in_quotes(is_plain ? fmt::format("abs({})", inside) : "abs(...)"));
   }
 
   [[noreturn, gnu::noinline]] void fail_expected(std::string_view expected) const {
@@ -239,23 +240,23 @@ class Parser {
   }
 
   [[noreturn, gnu::noinline]] void fail_number() const {
-    place_.fail(fmt::format("the number {} is out of range", quoted(token_.text)), token_.offset);
+    place_.fail(fmt::format("the number {} is out of range", in_quotes(token_.text)), token_.offset);
   }
 
   [[noreturn, gnu::noinline]] void fail_function(const Token& word) const {
     if (past_operator_arguments(word.text) > 0) {
-      place_.fail(
-          fmt::format("{} looks at the past, expected it in a formula of 'memory' only", quoted(word.text)),
-          word.offset);
+      place_.fail(fmt::format("{} looks at the past, expected it in a formula of 'memory' only",
+                              in_quotes(word.text)),
+                  word.offset);
     }
     const std::string meant = meant_function(word.text);
     if (!meant.empty())
-      place_.fail(fmt::format("{} is not a function{}", quoted(word.text), meant), word.offset);
+      place_.fail(fmt::format("{} is not a function{}", in_quotes(word.text), meant), word.offset);
     std::string known = fmt::format("{}, {}", spelling(Operator::if_else), spelling(Operator::modulo));
     for (const NumberFunction& function : number_functions()) {
       if (!function.call.empty()) known += fmt::format(", {}", function.call);
     }
-    place_.fail(fmt::format("{} is not a function, expected one of {}", quoted(word.text), known),
+    place_.fail(fmt::format("{} is not a function, expected one of {}", in_quotes(word.text), known),
                 word.offset);
   }
 

@@ -106,7 +106,7 @@ Token read_token(std::string_view text, std::size_t offset) {
 std::string shown(const Token& token) {
   if (token.kind == TokenKind::end) return "the end";
   if (token.kind == TokenKind::unknown) return shown_character(token.text);
-  return quoted(token.text);
+  return in_quotes(token.text);
 }
 
 std::size_t past_operator_arguments(std::string_view name) {

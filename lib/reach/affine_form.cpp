@@ -49,7 +49,7 @@ std::optional<AffineForm> affine_form(const SystemSpec& spec, std::size_t equati
   if (polynomial.known && (!polynomial.constant.total || !polynomial.constant.bounded)) {
     const std::string& name = spec.states[equation].name;
     throw SpecError(fmt::format("the equation of '{}', {}, is not defined or not finite{}", name,
-                                quoted(program.text), place(spec, dependencies, slots)),
+                                in_quotes(program.text), place(spec, dependencies, slots)),
                     "/dynamics/equations/" + name);
   }
   if (!polynomial.known || polynomial.degree() > 1) return std::nullopt;

@@ -164,7 +164,7 @@ class EnclosureTable {
   }
 
   [[nodiscard]] std::string equation_text(std::size_t state) const {
-    return quoted(spec_.dynamics.equations[state].text);
+    return in_quotes(spec_.dynamics.equations[state].text);
   }
 
   [[nodiscard]] std::string where() const { return "/dynamics/equations/" + target_.name; }
