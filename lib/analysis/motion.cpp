@@ -102,7 +102,7 @@ class Ways {
     }
     std::vector<std::int32_t> all(spec.states.size());
     std::iota(all.begin(), all.end(), 0);
-    flow_.emplace(spec, all, kMotionTolerance);
+    flow_.emplace(spec, all, kMotionTolerance, PointFlow::kFewSteps);
   }
 
   std::optional<std::vector<double>> end(const std::vector<double>& slots) {

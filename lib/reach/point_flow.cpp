@@ -34,9 +34,10 @@ double growth(double error, double largest) {
 
 }  // namespace
 
-PointFlow::PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving, double tolerance)
+PointFlow::PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving, double tolerance, int most)
     : period_(nearest_double(spec.dynamics.period)),
       tolerance_(tolerance),
+      most_(most),
       pair_(moving.size()),
       x_(static_cast<Eigen::Index>(moving.size())),
       point_(x_.size()),
@@ -236,7 +237,7 @@ std::optional<std::vector<double>> PointFlow::after_period(std::span<const doubl
   for (double h = period_; left > 0.0;) {
     const bool found = advance(left, h);
     followed_ = 1.0 - left / period_;
-    if (!found && is_stiff_) return std::nullopt;
+    if ((!found && is_stiff_) || steps_ > most_) return std::nullopt;
     if (!is_stiff_ && (!found || stiff_steps_ > kStiffSteps)) begin_stiffly();
   }
   std::vector<double> end(turned_);

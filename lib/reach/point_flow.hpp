@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,17 +29,21 @@ namespace coordreq {
 class PointFlow {
  public:
   static constexpr double kAccurate = 1e-12;
+  /// For many solutions, of which single ones may be left out: ordinary ones take some hundred steps.
+  static constexpr int kFewSteps = 20'000;
 
   /// @param moving states that are integrated, closed under the equations
   /// @param tolerance of the estimated error of a sub-step, relative to the larger of state and grid step
+  /// @param most sub-steps that are tried; a solution that takes more is not followed to its end
   /// @pre unchecked: `spec` outlives this object.
-  PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving, double tolerance = kAccurate);
+  PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving, double tolerance = kAccurate,
+            int most = std::numeric_limits<int>::max());
   PointFlow(const PointFlow&) = delete;
   PointFlow& operator=(const PointFlow&) = delete;
 
   /// Values of the moving states, in their order, after one period from `slots`, in which everything else
   /// stays constant. Periodic states are not wrapped: what they have turned counts.
-  /// @returns nothing if the solution is undefined on the way or not finite
+  /// @returns nothing if the solution is undefined on the way or not finite, or takes too many sub-steps
   [[nodiscard]] std::optional<std::vector<double>> after_period(std::span<const double> slots);
   /// The share of the period up to which the last solution was followed; 1 if that was all of it.
   [[nodiscard]] double followed() const { return followed_; }
@@ -67,6 +72,7 @@ class PointFlow {
 
   double period_;
   double tolerance_;
+  int most_;
   std::vector<std::uint32_t> slots_of_states_;
   std::vector<SwitchedEquation> equations_;
   std::vector<Range> ranges_;

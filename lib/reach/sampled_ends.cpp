@@ -24,7 +24,9 @@ SampledEnds::SampledEnds(const SystemSpec& spec)
 
 PointFlow& SampledEnds::flow_of(std::size_t state) {
   std::unique_ptr<PointFlow>& flow = flows_[state];
-  if (!flow) flow = std::make_unique<PointFlow>(*spec_, dependencies_[state].moving, kSampleTolerance);
+  if (!flow)
+    flow = std::make_unique<PointFlow>(*spec_, dependencies_[state].moving, kSampleTolerance,
+                                       PointFlow::kFewSteps);
   return *flow;
 }
 

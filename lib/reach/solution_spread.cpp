@@ -72,6 +72,7 @@ bool SolutionSpread::follow(Values x, Path& path) {
 bool SolutionSpread::advance(Values& x, double duration) {
   double left = duration;
   while (left > 0.0) {
+    ++all_tries_;
     if (++tries_ > kSpreadTries) return false;
     const double h = std::min(step_, left);
     pair_.step([this](const Values& at, Values& result) { derivative(at, result); }, x, h);

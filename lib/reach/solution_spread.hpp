@@ -28,6 +28,8 @@ class SolutionSpread {
   /// @returns nothing if they are not, or cannot be followed in so few steps
   [[nodiscard]] std::optional<std::size_t> widest(std::span<const Interval> slots,
                                                   std::span<const Interval> box, double limit);
+  /// Sub-steps that were tried so far.
+  [[nodiscard]] std::int64_t tries() const { return all_tries_; }
 
  private:
   using Values = DormandPrince::Values;
@@ -45,7 +47,8 @@ class SolutionSpread {
   DormandPrince pair_;
   std::vector<double> slots_;
   double step_ = 0.0;  ///< that went well last
-  int tries_ = 0;
+  int tries_ = 0;      ///< for the present solution
+  std::int64_t all_tries_ = 0;
 };
 
 }  // namespace coordreq

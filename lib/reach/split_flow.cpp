@@ -18,6 +18,8 @@ constexpr double kFarFlow = 16.0;
 constexpr double kMostSpread = 8.0;
 /// A share of the effort for such parts; the rest is for where it matters.
 constexpr std::size_t kShareOfParts = 2;
+/// Sub-steps of solutions for such parts of one box: few systems need a tenth.
+constexpr std::int64_t kMostSpreadTries = 40'000;
 
 }  // namespace
 
@@ -71,7 +73,8 @@ std::vector<std::vector<Interval>> SplitFlow::close_parts(std::vector<std::vecto
   const auto most = static_cast<std::size_t>(division_.effort()) / kShareOfParts;
   std::deque<std::vector<Interval>> open(boxes.begin(), boxes.end());
   std::vector<std::vector<Interval>> close;
-  while (!open.empty() && open.size() + close.size() < most) {
+  const std::int64_t tried = spread_->tries();
+  while (!open.empty() && open.size() + close.size() < most && spread_->tries() - tried < kMostSpreadTries) {
     std::vector<Interval> lower = std::move(open.front());
     open.pop_front();
     const std::optional<std::size_t> direction = spread_->widest(slots_, lower, kMostSpread);

@@ -13,6 +13,8 @@ namespace coordreq {
 namespace {
 
 constexpr int kMostSteps = 128;
+/// Tries for a step of the solution in the middle: some dozen find the place where an equation has a kink.
+constexpr int kTriesOfMiddle = 200;
 constexpr int kSeveralSteps = 8;    ///< with fewer a tube is not narrowed
 constexpr int kManySteps = 32;      ///< with fewer a solution in the middle need not be as exact
 constexpr double kOfMiddle = 1e-2;  ///< tolerance of a solution around which others are, in cells
@@ -109,7 +111,7 @@ class MiddleSolution {
   [[nodiscard]] bool advance(const ArbBox& tube) {
     constexpr double kNoLimit = std::numeric_limits<double>::max();
     std::optional<ArbBox> end = trajectory_.analytic_step(now_, tube, step_, kNoLimit, terms_);
-    if (!end) return trajectory_.integrate(now_, step_, tolerance_);
+    if (!end) return trajectory_.integrate(now_, step_, tolerance_, kTriesOfMiddle);
     now_ = std::move(*end);
     return true;
   }

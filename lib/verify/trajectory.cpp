@@ -106,11 +106,12 @@ bool Trajectory::advance(ArbBox& box, const Arb& duration, double tolerance) {
   return true;
 }
 
-bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
+bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance, int most) {
   std::uint32_t left = kFinest;
   std::uint32_t parts = kFinest;  // not what did before: that would let one question change another
   may_double_ = true;
   while (left > 0) {
+    if (--most < 0) return false;
     parts = std::min(parts, left);
     const Arb share(static_cast<double>(parts) / kFinest);
     std::optional<ArbBox> next = step(box, duration * share, tolerance * share.approximately(), parts == 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -21,7 +22,9 @@ class Trajectory {
   /// @returns false if the solution may not last so long; then the box is not changed
   [[nodiscard]] bool advance(ArbBox& box, const Arb& duration, double tolerance);
   /// advance() without remembering the result, for durations that are asked about once.
-  [[nodiscard]] bool integrate(ArbBox& box, const Arb& duration, double tolerance);
+  /// @param most parts of the duration that are tried at most
+  [[nodiscard]] bool integrate(ArbBox& box, const Arb& duration, double tolerance,
+                               int most = std::numeric_limits<int>::max());
   /// One step by a Taylor polynomial with so many terms.
   /// @param tube holds the solution during the step
   /// @returns nothing where the remainder is larger than the tolerance

@@ -60,7 +60,7 @@ std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int6
 
 IndexRange cut_to_range(const GridDimension& dimension, std::int64_t first, std::int64_t last) {
   constexpr std::int64_t kUnknown = 4 * kFarOut * kFarOut;
-  const bool is_known = first > -kUnknown && std::max(first, last + 1) < kUnknown;
+  const bool is_known = std::min(first - 1, last) > -kUnknown && std::max(first, last + 1) < kUnknown;
   REQUIRES(first <= last || !is_known);
   if (dimension.periodic() && !is_known) return {0, static_cast<std::int32_t>(dimension.count - 1)};
   if (dimension.periodic() && (first < -kFarOut || last > kFarOut)) {

@@ -54,6 +54,16 @@ TEST(CellParts, TheArcThatHoldsBothIsTheShortest) {
   EXPECT_EQ(both_of({0, 4}, {5, 9}, ring(10)), (IndexRange{0, 9}));
 }
 
+/// Indices that are cut to 2^62 may stand in the wrong order.
+TEST(CellParts, OnARingIndicesThatAreNotKnownAreAllCells) {
+  constexpr std::int64_t kFar = std::int64_t{1} << 62;
+  const IndexRange all{0, 9};
+  for (const auto& [first, last] :
+       {std::pair(1 - kFar, -kFar), std::pair(kFar + 1, kFar), std::pair(-kFar, kFar),
+        std::pair(-kFar, std::int64_t{3}), std::pair(std::int64_t{3}, kFar)})
+    EXPECT_EQ(cut_to_range(ring(10), first, last), all) << first;
+}
+
 /// The functions for checks alone agree with those of the analysis.
 TEST(CellParts, AreThoseOfTheAnalysis) {
   EXPECT_TRUE(rc::check([] {
