@@ -17,6 +17,9 @@
 namespace coordreq {
 namespace {
 
+/// Words in which one thread remembers the cells near a side.
+constexpr std::int64_t kMostWordsOfSide = std::int64_t{1} << 13;
+
 bool is_safe(const GridDimension& dimension, bool above) {
   return traits(above ? dimension.above : dimension.below).is_only_safe();
 }
@@ -29,10 +32,25 @@ class LeavingInput {
         abstraction_(*context_.abstraction),
         grid_(abstraction_.grid),
         invariant_(answers.get<Invariance>().invariant),
-        posts_(abstraction_) {
+        posts_(abstraction_),
+        near_(answers.context.engine->row_words()) {
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       if (!is_safe(grid_[i], false) && !is_safe(grid_[i], true)) continue;
-      Side& side = sides_.emplace_back(Side{i, {}});
+      Side& side = sides_.emplace_back();
+      side.dimension = i;
+      std::int64_t keys = 1;
+      for (const std::int32_t j : abstraction_.tables[i].states) {
+        side.is_along = side.is_along || at(j) >= grid_.across();
+        if (at(j) >= grid_.across()) continue;
+        side.across.push_back(at(j));
+        side.strides.push_back(keys);
+        keys *= grid_[at(j)].count;
+      }
+      side.words = side.is_along ? near_.size() : 1;
+      if (keys <= kMostWordsOfSide / static_cast<std::int64_t>(side.words)) {
+        side.known.assign(at(keys) * side.words, 0);
+        side.is_known.assign(at(keys), false);
+      }
       std::vector<std::int64_t> counts, strides;
       for (const std::int32_t j : abstraction_.tables[i].inputs) {
         counts.push_back(abstraction_.inputs[at(j)].count());
@@ -47,10 +65,16 @@ class LeavingInput {
     }
   }
 
+  /// Leaves in a row of cells those from which some joint input, in C(x) or not, leads out through a `safe`
+  /// side.
+  void keep_near(std::int64_t row, MutableRow cells) {
+    std::fill(near_.begin(), near_.end(), 0);
+    for (Side& side : sides_) add_near(side, row, cells);
+    for (std::size_t w = 0; w < near_.size(); ++w) cells[w] &= near_[w];
+  }
+
   /// @pre unchecked: x is in Z_F.
   bool is_at(std::int64_t x) {
-    if (std::none_of(sides_.begin(), sides_.end(), [&](const Side& side) { return is_near(side, x); }))
-      return false;
     posts_.move_to(x);
     const std::int64_t all = abstraction_.inputs.count();
     // The joint input that left the last cell most often leaves this one, too.
@@ -68,7 +92,44 @@ class LeavingInput {
     std::size_t dimension;
     std::vector<std::int64_t>
         parts;  ///< numbers of joint inputs, one for each choice of the inputs on which the side depends
+    /// The dimensions across rows on which it depends: rows that agree in them have the same cells near it.
+    std::vector<std::size_t> across;
+    std::vector<std::int64_t> strides;
+    bool is_along = false;    ///< it depends on a dimension along rows, too
+    std::size_t words = 1;    ///< of such a row; one if it is all or nothing
+    std::vector<Word> known;  ///< [choice of their indices * words + word]; empty: there are too many
+    std::vector<bool> is_known;
   };
+
+  void add_near(Side& side, std::int64_t row, ConstRow cells) {
+    const std::int64_t first = row * grid_.row_length();
+    if (side.known.empty()) {
+      for_each_bit(cells, [&](std::int64_t lane) {
+        if (is_near(side, first + lane))
+          near_[at(lane / CellSet::kWordBits)] |= Word{1} << (lane % CellSet::kWordBits);
+      });
+      return;
+    }
+    std::int64_t key = 0;
+    for (std::size_t k = 0; k < side.across.size(); ++k)
+      key += grid_.index(first, side.across[k]) * side.strides[k];
+    Word* const known = side.known.data() + at(key) * side.words;
+    if (!side.is_known[at(key)]) {
+      side.is_known[at(key)] = true;
+      if (side.is_along) {
+        const RowFamily posts = context_.engine->posts();
+        posts.shape.for_each_run([&](std::int64_t begin, std::int64_t count) {
+          for (std::int64_t lane = begin; lane < begin + count; ++lane) {
+            if (is_near(side, first + lane))
+              known[lane / CellSet::kWordBits] |= Word{1} << (lane % CellSet::kWordBits);
+          }
+        });
+      } else if (is_near(side, first)) {
+        known[0] = ~Word{0};
+      }
+    }
+    for (std::size_t w = 0; w < near_.size(); ++w) near_[w] |= known[side.is_along ? w : 0];
+  }
 
   /// Whether some joint input, in C(x) or not, leads out through the side.
   [[nodiscard]] bool is_near(const Side& side, std::int64_t x) const {
@@ -105,6 +166,7 @@ class LeavingInput {
   const UniformGrid& grid_;
   const CellSet& invariant_;
   CellPosts posts_;
+  std::vector<Word> near_;
   std::vector<Side> sides_;
   std::int64_t last_ = 0;
 };
@@ -118,10 +180,14 @@ void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) 
   for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
     LeavingInput& input = *inputs[at(worker)];
     std::vector<std::int64_t> found;
+    std::vector<Word> near(engine.row_words());
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       const MutableRow row = cells.row(r);
+      if (!any_set(row)) continue;
       found.clear();
-      for_each_bit(row, [&](std::int64_t lane) {
+      std::ranges::copy(row, near.begin());
+      input.keep_near(r, near);
+      for_each_bit(ConstRow(near), [&](std::int64_t lane) {
         const std::int64_t x = r * engine.row_length() + lane;
         if ((context.over && context.over->test(x)) || !input.is_at(x)) return;
         found.push_back(lane);
