@@ -49,9 +49,8 @@ class RowOperator {
 ///    result, and every count, is the same for any number of threads.
 /// 2. A unit is looked at in at most one batch of a sweep.
 /// 3. Of the rows that can still change those are visited whose unit has not been looked at yet, or whose
-/// posts
-///    can meet a row that has changed in or after the batch that looked at their unit last. So a row that is
-///    passed over would keep its levels.
+///    posts can meet a row that has changed in or after the batch that looked at their unit last. So a row
+///    that is passed over would keep its levels.
 /// 4. Levels are never below the solution (above it where they rise), so that work that was broken off can
 ///    begin anew at any step.
 /// 5. Between batches permuted rows are equal to their canonical row, if there is a symmetry.
