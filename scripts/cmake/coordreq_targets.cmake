@@ -25,7 +25,7 @@ include(GNUInstallDirs)
 # those of scripts/cmake/precompiled.hpp, of tests those of GoogleTest and RapidCheck too.
 function(coordreq_precompile target)
   set(header precompiled)
-  set(libraries coordreq_options nlohmann_json::nlohmann_json)
+  set(libraries coordreq_options)
   if("${ARGN}" STREQUAL "tests")
     set(header precompiled_tests)
     list(APPEND libraries GTest::gtest rapidcheck)
