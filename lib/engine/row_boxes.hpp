@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/action_groups.hpp"
-#include "engine/row_hull.hpp"
+#include "engine/row_box.hpp"
 
 namespace coordreq {
 

@@ -29,7 +29,7 @@ namespace coordreq {
 class PointFlow {
  public:
   static constexpr double kAccurate = 1e-12;
-  /// For many solutions, of which single ones may be left out: ordinary ones take some hundred steps.
+  /// For many solutions, of which single ones may be left out.
   static constexpr int kFewSteps = 20'000;
 
   /// @param moving states that are integrated, closed under the equations

@@ -34,7 +34,6 @@ class SplitFlow {
 
  private:
   [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> box);
-  [[nodiscard]] bool corners_have_enclosures();
   [[nodiscard]] bool can_use_faces();
   bool divide_faces();
   bool divide_all();

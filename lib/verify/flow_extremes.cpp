@@ -13,7 +13,7 @@ namespace coordreq {
 namespace {
 
 constexpr int kMostSteps = 128;
-/// Tries for a step of the solution in the middle: some dozen find the place where an equation has a kink.
+/// Tries for a step of the solution in the middle, which has to find where an equation has a kink.
 constexpr int kTriesOfMiddle = 200;
 constexpr int kSeveralSteps = 8;    ///< with fewer a tube is not narrowed
 constexpr int kManySteps = 32;      ///< with fewer a solution in the middle need not be as exact

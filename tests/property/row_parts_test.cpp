@@ -4,7 +4,7 @@
 #include <rapidcheck.h>
 
 #include "answers/invariance/safe_set.hpp"
-#include "engine/box_reader.hpp"
+#include "engine/row_hull.hpp"
 #include "engine/tuple_walk.hpp"
 #include "spec/read_spec.hpp"
 #include "support/draw.hpp"

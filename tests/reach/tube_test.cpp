@@ -98,7 +98,7 @@ TEST(Tube, HoldsEverySignalOfTheDisturbance) {
 
 /// From beyond 710 exp(x) is no double. A solution is enclosed from some cells, where its way has no bound,
 /// and not from others: that is an error, and nothing else.
-TEST(Tube, TheEndMayHaveABoundWhereTheWayHasNone) {
+TEST(Tube, AWayWithoutABoundIsAtMostAnError) {
   const SystemSpec spec = read_system(R"json({"coordreq": 1, "name": "t",
 "states": [{"name": "x", "lower": -3006, "upper": 2404.8, "count": 9, "outside": "saturate"}],
 "inputs": [{"name": "u", "values": [-30, -0.4, 0.2254]}, {"name": "v", "values": [-0.5, 8]}],

@@ -17,124 +17,108 @@
 namespace coordreq {
 namespace {
 
-/// Words in which one thread remembers the cells near a side.
+/// Words in which the cells near a side are remembered.
 constexpr std::int64_t kMostWordsOfSide = std::int64_t{1} << 13;
 
 bool is_safe(const GridDimension& dimension, bool above) {
   return traits(above ? dimension.above : dimension.below).is_only_safe();
 }
 
-/// Looks for a joint input of C(x) that leaves through a `safe` side. One object a thread.
-class LeavingInput {
+/// The `safe` sides of a problem, and the cells from which some joint input leads out through one. These are
+/// found once for all rows that agree in what the side depends on: most cells are near none.
+///
+/// Immutable once built, so safe to share between threads.
+class SafeSides {
  public:
-  explicit LeavingInput(const Answers& answers)
-      : context_(answers.context),
-        abstraction_(*context_.abstraction),
-        grid_(abstraction_.grid),
-        invariant_(answers.get<Invariance>().invariant),
-        posts_(abstraction_),
-        near_(answers.context.engine->row_words()) {
+  explicit SafeSides(const AnalysisContext& context)
+      : abstraction_(*context.abstraction), engine_(*context.engine), grid_(abstraction_.grid) {
     for (std::size_t i = 0; i < grid_.size(); ++i) {
-      if (!is_safe(grid_[i], false) && !is_safe(grid_[i], true)) continue;
-      Side& side = sides_.emplace_back();
-      side.dimension = i;
-      std::int64_t keys = 1;
-      for (const std::int32_t j : abstraction_.tables[i].states) {
-        side.is_along = side.is_along || at(j) >= grid_.across();
-        if (at(j) >= grid_.across()) continue;
-        side.across.push_back(at(j));
-        side.strides.push_back(keys);
-        keys *= grid_[at(j)].count;
-      }
-      side.words = side.is_along ? near_.size() : 1;
-      if (keys <= kMostWordsOfSide / static_cast<std::int64_t>(side.words)) {
-        side.known.assign(at(keys) * side.words, 0);
-        side.is_known.assign(at(keys), false);
-      }
-      std::vector<std::int64_t> counts, strides;
-      for (const std::int32_t j : abstraction_.tables[i].inputs) {
-        counts.push_back(abstraction_.inputs[at(j)].count());
-        strides.push_back(abstraction_.inputs.stride(at(j)));
-      }
-      Odometer choice(counts);
-      do {
-        std::int64_t part = 0;
-        for (std::size_t k = 0; k < counts.size(); ++k) part += choice.indices()[k] * strides[k];
-        side.parts.push_back(part);
-      } while (choice.advance());
+      if (is_safe(grid_[i], false) || is_safe(grid_[i], true)) add(i);
     }
   }
 
-  /// Leaves in a row of cells those from which some joint input, in C(x) or not, leads out through a `safe`
-  /// side.
-  void keep_near(std::int64_t row, MutableRow cells) {
-    std::fill(near_.begin(), near_.end(), 0);
-    for (Side& side : sides_) add_near(side, row, cells);
-    for (std::size_t w = 0; w < near_.size(); ++w) cells[w] &= near_[w];
+  [[nodiscard]] bool leaves(std::int64_t x, std::int64_t u) const {
+    return std::any_of(sides_.begin(), sides_.end(),
+                       [&](const Side& side) { return leaves_by(side.dimension, x, u); });
   }
 
-  /// @pre unchecked: x is in Z_F.
-  bool is_at(std::int64_t x) {
-    posts_.move_to(x);
-    const std::int64_t all = abstraction_.inputs.count();
-    // The joint input that left the last cell most often leaves this one, too.
-    for (std::int64_t k = 0; k < all; ++k) {
-      const std::int64_t u = (last_ + k) % all;
-      if (!leaves(x, u) || !is_admissible(x, u)) continue;
-      last_ = u;
-      return true;
+  /// result = the cells of a row, among the given ones, from which some joint input, in C(x) or not, leads
+  /// out through a side.
+  void find_near(const RowPlace& place, ConstRow cells, MutableRow result) const {
+    std::fill(result.begin(), result.end(), 0);
+    for (const Side& side : sides_) {
+      if (side.near.empty()) {
+        for_each_bit(cells, [&](std::int64_t lane) { mark_if_near(side, place.row, lane, result.data()); });
+        continue;
+      }
+      const Word* const near = side.near.data() + choice(side, place) * side.words;
+      for (std::size_t w = 0; w < result.size(); ++w) result[w] |= near[side.words == 1 ? 0 : w];
     }
-    return false;
+    for (std::size_t w = 0; w < result.size(); ++w) result[w] &= cells[w];
   }
 
  private:
   struct Side {
-    std::size_t dimension;
-    std::vector<std::int64_t>
-        parts;  ///< numbers of joint inputs, one for each choice of the inputs on which the side depends
-    /// The dimensions across rows on which it depends: rows that agree in them have the same cells near it.
-    std::vector<std::size_t> across;
-    std::vector<std::int64_t> strides;
-    bool is_along = false;    ///< it depends on a dimension along rows, too
-    std::size_t words = 1;    ///< of such a row; one if it is all or nothing
-    std::vector<Word> known;  ///< [choice of their indices * words + word]; empty: there are too many
-    std::vector<bool> is_known;
+    std::size_t dimension = 0;
+    std::vector<std::int64_t> parts =
+        {};  ///< numbers of joint inputs, one for each choice of the inputs on which it depends
+    std::size_t words = 1;        ///< of a row; one if it depends on no dimension along rows: all or nothing
+    std::vector<Word> near = {};  ///< [choice(), word]; empty: there are too many
   };
 
-  void add_near(Side& side, std::int64_t row, ConstRow cells) {
-    const std::int64_t first = row * grid_.row_length();
-    if (side.known.empty()) {
-      for_each_bit(cells, [&](std::int64_t lane) {
-        if (is_near(side, first + lane))
-          near_[at(lane / CellSet::kWordBits)] |= Word{1} << (lane % CellSet::kWordBits);
-      });
-      return;
+  void add(std::size_t i) {
+    Side& side = sides_.emplace_back();
+    side.dimension = i;
+    const TransitionTable& table = abstraction_.tables[i];
+    std::vector<std::int64_t> counts, strides;
+    for (const std::int32_t j : table.inputs) {
+      counts.push_back(abstraction_.inputs[at(j)].count());
+      strides.push_back(abstraction_.inputs.stride(at(j)));
     }
-    std::int64_t key = 0;
-    for (std::size_t k = 0; k < side.across.size(); ++k)
-      key += grid_.index(first, side.across[k]) * side.strides[k];
-    Word* const known = side.known.data() + at(key) * side.words;
-    if (!side.is_known[at(key)]) {
-      side.is_known[at(key)] = true;
-      if (side.is_along) {
-        const RowFamily posts = context_.engine->posts();
-        posts.shape.for_each_run([&](std::int64_t begin, std::int64_t count) {
-          for (std::int64_t lane = begin; lane < begin + count; ++lane) {
-            if (is_near(side, first + lane))
-              known[lane / CellSet::kWordBits] |= Word{1} << (lane % CellSet::kWordBits);
-          }
-        });
-      } else if (is_near(side, first)) {
-        known[0] = ~Word{0};
-      }
+    Odometer inputs(counts);
+    do {
+      std::int64_t part = 0;
+      for (std::size_t k = 0; k < counts.size(); ++k) part += inputs.indices()[k] * strides[k];
+      side.parts.push_back(part);
+    } while (inputs.advance());
+    const bool is_along = std::any_of(table.states.begin(), table.states.end(),
+                                      [&](auto j) { return at(j) >= grid_.across(); });
+    side.words = is_along ? engine_.row_words() : 1;
+    const std::int64_t choices = engine_.slices()[i].size() / engine_.slices()[i].input_combinations;
+    if (choices > kMostWordsOfSide / static_cast<std::int64_t>(side.words)) return;
+    side.near.assign(at(choices) * side.words, 0);
+    std::vector<bool> is_known(at(choices), false);
+    const RowShare::Range own = own_rows(engine_.share(), engine_.rows());
+    for (RowPlace place(grid_, own.begin); place.row < own.end; place.advance(grid_)) {
+      const std::size_t number = choice(side, place);
+      if (!is_known[number]) fill(side, is_along, place.row, side.near.data() + number * side.words);
+      is_known[number] = true;
     }
-    for (std::size_t w = 0; w < near_.size(); ++w) near_[w] |= known[side.is_along ? w : 0];
   }
 
-  /// Whether some joint input, in C(x) or not, leads out through the side.
-  [[nodiscard]] bool is_near(const Side& side, std::int64_t x) const {
-    return std::any_of(side.parts.begin(), side.parts.end(),
-                       [&](std::int64_t part) { return leaves_by(side.dimension, x, part); });
+  void fill(const Side& side, bool is_along, std::int64_t row, Word* near) const {
+    if (!is_along) {
+      mark_if_near(side, row, 0, near);
+      if (*near != 0) *near = ~Word{0};
+      return;
+    }
+    const RowFamily posts = engine_.posts();
+    posts.shape.for_each_run([&](std::int64_t begin, std::int64_t count) {
+      for (std::int64_t lane = begin; lane < begin + count; ++lane) mark_if_near(side, row, lane, near);
+    });
+  }
+
+  /// The number of the choice of states across rows on which the side depends.
+  [[nodiscard]] std::size_t choice(const Side& side, const RowPlace& place) const {
+    const RowSlices& slices = engine_.slices()[side.dimension];
+    return at(slices.base(place) / slices.input_combinations);
+  }
+
+  void mark_if_near(const Side& side, std::int64_t row, std::int64_t lane, Word* near) const {
+    const std::int64_t x = row * grid_.row_length() + lane;
+    if (std::any_of(side.parts.begin(), side.parts.end(),
+                    [&](std::int64_t part) { return leaves_by(side.dimension, x, part); }))
+      near[lane / CellSet::kWordBits] |= Word{1} << (lane % CellSet::kWordBits);
   }
 
   [[nodiscard]] bool leaves_by(std::size_t i, std::int64_t x, std::int64_t u) const {
@@ -143,11 +127,37 @@ class LeavingInput {
            (raw.last >= grid_[i].count && is_safe(grid_[i], true));
   }
 
-  [[nodiscard]] bool leaves(std::int64_t x, std::int64_t u) const {
-    return std::any_of(sides_.begin(), sides_.end(),
-                       [&](const Side& side) { return leaves_by(side.dimension, x, u); });
+  const Abstraction& abstraction_;
+  const RowEngine& engine_;
+  const UniformGrid& grid_;
+  std::vector<Side> sides_;
+};
+
+/// Looks for a joint input of C(x) that leaves through a `safe` side. One object a thread.
+class LeavingInput {
+ public:
+  LeavingInput(const Answers& answers, const SafeSides& sides)
+      : context_(answers.context),
+        grid_(context_.abstraction->grid),
+        invariant_(answers.get<Invariance>().invariant),
+        sides_(sides),
+        posts_(*context_.abstraction) {}
+
+  /// @pre unchecked: x is in Z_F.
+  bool is_at(std::int64_t x) {
+    posts_.move_to(x);
+    const std::int64_t all = context_.abstraction->inputs.count();
+    // The joint input that left the last cell most often leaves this one, too.
+    for (std::int64_t k = 0; k < all; ++k) {
+      const std::int64_t u = (last_ + k) % all;
+      if (!sides_.leaves(x, u) || !is_admissible(x, u)) continue;
+      last_ = u;
+      return true;
+    }
+    return false;
   }
 
+ private:
   [[nodiscard]] bool is_admissible(std::int64_t x, std::int64_t u) {
     const PairTable* const allow = context_.pairs.admissible();
     const std::int64_t row = x / grid_.row_length(), column = x % grid_.row_length();
@@ -162,38 +172,32 @@ class LeavingInput {
   }
 
   const AnalysisContext& context_;
-  const Abstraction& abstraction_;
   const UniformGrid& grid_;
   const CellSet& invariant_;
+  const SafeSides& sides_;
   CellPosts posts_;
-  std::vector<Word> near_;
-  std::vector<Side> sides_;
   std::int64_t last_ = 0;
 };
 
 /// Removes the cells from which some joint input leaves, in the rows owned.
 void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) {
   const AnalysisContext& context = answers.context;
+  const SafeSides sides(context);
   std::vector<std::unique_ptr<LeavingInput>> inputs;
-  for (int w = 0; w < team.size(); ++w) inputs.push_back(std::make_unique<LeavingInput>(answers));
+  for (int w = 0; w < team.size(); ++w) inputs.push_back(std::make_unique<LeavingInput>(answers, sides));
   const RowEngine& engine = *context.engine;
   for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
     LeavingInput& input = *inputs[at(worker)];
-    std::vector<std::int64_t> found;
     std::vector<Word> near(engine.row_words());
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      const MutableRow row = cells.row(r);
+    for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
+      const MutableRow row = cells.row(place.row);
       if (!any_set(row)) continue;
-      found.clear();
-      std::ranges::copy(row, near.begin());
-      input.keep_near(r, near);
-      for_each_bit(ConstRow(near), [&](std::int64_t lane) {
-        const std::int64_t x = r * engine.row_length() + lane;
+      sides.find_near(place, row, near);
+      for_each_bit(near, [&](std::int64_t lane) {
+        const std::int64_t x = place.row * engine.row_length() + lane;
         if ((context.over && context.over->test(x)) || !input.is_at(x)) return;
-        found.push_back(lane);
-      });
-      for (const std::int64_t lane : found)
         row[at(lane / CellSet::kWordBits)] &= ~(Word{1} << (lane % CellSet::kWordBits));
+      });
     }
   });
 }
