@@ -10,8 +10,6 @@
 
 namespace coordreq {
 
-using Kind = Location::Kind;
-
 std::vector<std::shared_ptr<ActionChooser>> ClosedLoop::choosers_of_modes() {
   std::vector<std::shared_ptr<ActionChooser>> result;
   std::map<std::string, std::shared_ptr<ActionChooser>> known;
@@ -71,7 +69,7 @@ RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run
     const bool known = advance(state, *u, nature);
     mode = problem_.network->draw(mode, losses);
     add();
-    if (state.place.kind == Kind::left_safely) {
+    if (state.place.kind == Location::Kind::left_safely) {
       return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::left_safely);
     }
     if (!known || trace.samples.back().delay < 0) return end(Outcome::left_invariant);

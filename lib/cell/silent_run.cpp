@@ -7,8 +7,6 @@
 
 namespace coordreq {
 
-using Kind = Location::Kind;
-
 RunTrace ClosedLoop::run_silent(std::vector<Rational> measured, std::uint64_t run) {
   RandomStream actions(options_.seed, run, RandomStream::Purpose::actions);
   RandomStream disturbances(options_.seed, run, RandomStream::Purpose::disturbances);
@@ -54,9 +52,9 @@ RunTrace ClosedLoop::run_silent(std::vector<Rational> measured, std::uint64_t ru
     trace.steps.push_back({*u, is_coordinated, std::move(disturbance)});
     const bool known = advance(state, *u, nature);
     add();
-    if (state.place.kind == Kind::left_safely)
+    if (state.place.kind == Location::Kind::left_safely)
       return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::left_safely, 0);
-    const bool is_safe = known && state.place.kind == Kind::cell &&
+    const bool is_safe = known && state.place.kind == Location::Kind::cell &&
                          silence[static_cast<std::size_t>(state.place.cell)] != DelayLayers::kOutsideSafe;
     if (!is_safe) return end(Outcome::left_safe_set, 0);
   }
