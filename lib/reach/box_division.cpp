@@ -16,6 +16,12 @@ constexpr double kCloseSteps = 0.05;
 constexpr int kDeepestFailure = 40;
 /// Twice as many parts have to leave less than this share of what was missing.
 constexpr double kWorthwhile = 0.95;
+/// Before so many parts, and before this share of the effort, it is not asked whether the effort can be
+/// enough: the way to the first part with an enclosure may be long.
+constexpr std::int64_t kFirstParts = 25;
+constexpr std::int64_t kFirstShare = 8;
+/// So many times the effort may be in sight: parts differ.
+constexpr double kHopefulEfforts = 2.0;
 
 bool is_upper_side(std::size_t side) {
   return side % 2 == 1;
@@ -64,11 +70,13 @@ void BoxDivision::add(std::vector<Interval> box, const FlowEnclosure& found, int
 }
 
 bool BoxDivision::refine(const Enclose& enclose) {
+  const std::size_t first_parts = parts_.size();
   for (;;) {
     const std::size_t failed = deepest_failure();
     const bool enough = work_ + 2 > effort_;
     if (failed < parts_.size()) {
-      if (enough || parts_[failed].depth >= kDeepestFailure || !halve(failed, enclose)) return false;
+      const bool smallest = parts_[failed].depth >= kDeepestFailure;
+      if (enough || smallest || !has_hope(first_parts) || !halve(failed, enclose)) return false;
       continue;
     }
     if (enough || !still_pays()) return true;
@@ -88,6 +96,18 @@ bool BoxDivision::still_pays() {
   missed_ = now;
   next_check_ = 2 * parts_.size();
   return pays;
+}
+
+/// Whether the effort could be enough for an enclosure of each part, by the share of the box that those found
+/// so far cover. @param first_parts so many were equal shares of it
+bool BoxDivision::has_hope(std::size_t first_parts) const {
+  if (work_ < std::max(kFirstParts, effort_ / kFirstShare)) return true;
+  double covered = 0.0;
+  for (const Part& part : parts_) {
+    if (part.found.status == FlowEnclosure::Status::ok) covered += std::ldexp(1.0, -part.depth);
+  }
+  const double share = covered / static_cast<double>(first_parts);
+  return static_cast<double>(work_) <= kHopefulEfforts * static_cast<double>(effort_) * share;
 }
 
 /// @returns false if it is too small to be halved

@@ -67,6 +67,7 @@ class BoxDivision {
   [[nodiscard]] std::size_t farthest() const;
   [[nodiscard]] std::size_t owner(std::size_t side) const;
   [[nodiscard]] bool still_pays();
+  [[nodiscard]] bool has_hope(std::size_t first_parts) const;
 
   std::vector<EndCells> targets_;
   std::vector<double> steps_;

@@ -81,6 +81,34 @@ TEST(BoxDivision, PartsWithoutEnclosuresAreHalvedFirst) {
   EXPECT_LT(never.calls, 100);  // the smallest of one place is tried, not all of them
 }
 
+TEST(BoxDivision, PartsThatWouldBeFarTooManyAreGivenUp) {
+  const double small = 3.0 / 1024;  // 2,048 parts, and those on the way
+  const Divided many = divide({.step = 10.0}, 200, small);
+  EXPECT_FALSE(many.found);
+  EXPECT_LT(many.calls, 40);
+  EXPECT_TRUE(divide({.step = 10.0}, 10000, small).found);
+}
+
+TEST(BoxDivision, OnePlaceMayBeHardWhereAllOthersAreNot) {
+  BoxDivision division({{.step = 10.0}}, {1.0}, 100);
+  const std::vector<Interval> box{Interval{0.0, 1.0}};
+  FlowEnclosure found;
+  int calls = 0;
+  const auto enclose = [&](std::span<const Interval> part) -> const FlowEnclosure& {
+    ++calls;
+    const bool ok = part.front().lower > 0.0 || part.front().upper < 1e-9;
+    found = {.status = ok ? FlowEnclosure::Status::ok : FlowEnclosure::Status::blows_up};
+    found.end = {part.front()};
+    return found;
+  };
+  division.begin({});
+  division.add(box, enclose(box));
+  EXPECT_TRUE(division.refine(enclose));
+  EXPECT_GT(calls, 50);  // past the first look
+  EXPECT_EQ(united(division).lower, 0.0);
+  EXPECT_EQ(united(division).upper, 1.0);
+}
+
 TEST(BoxDivision, WhatDoesNotGetBetterIsGivenUp) {
   BoxDivision division({{.step = 0.01, .placed = false}}, {1.0}, 100000);
   FlowEnclosure same{.status = FlowEnclosure::Status::ok};
