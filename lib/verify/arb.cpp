@@ -91,9 +91,24 @@ Arb absolute(const Arb& a) {
   return hull(Arb(0.0), greater(a.upper(), Arb(0.0) - a.lower()));
 }
 
+/// With the middle m and the radius r it is [(|m| - r)^2, (|m| + r)^2], or from 0 on.
 Arb squared(const Arb& a) {
-  const Arb whole = absolute(a);
-  return hull(whole.lower() * whole.lower(), whole.upper() * whole.upper());
+  const Arb middle = a.middle();
+  Arb radius;
+  arf_set_mag(arb_midref(radius.get()), arb_radref(a.get()));
+  if (arf_cmpabs(arb_midref(middle.get()), arb_midref(radius.get())) < 0) {
+    const Arb most = absolute(middle) + radius;
+    return hull(Arb(0.0), most * most);
+  }
+  Arb result = middle * middle + radius * radius;
+  mag_t error;
+  mag_init(error);
+  arf_get_mag(error, arb_midref(middle.get()));
+  mag_mul(error, error, arb_radref(a.get()));
+  mag_mul_2exp_si(error, error, 1);
+  arb_add_error_mag(result.get(), error);
+  mag_clear(error);
+  return ending_at_zero(result, true);
 }
 
 }  // namespace coordreq

@@ -67,9 +67,10 @@ int side_of_sum(int a, int b) {
 int side_of_product(int a, int b) {
   return a == 2 || b == 2 ? 2 : a * b;
 }
-int side_of(const Arb& a) {
-  if (a.is_zero()) return 0;
-  return a.is_nonnegative() ? 1 : a.is_nonpositive() ? -1 : 2;
+int side_of_constant_term(const ArbSeries& a) {
+  arb_srcptr const term = arb_poly_get_coeff_ptr(a.get(), 0);
+  if (term == nullptr || arb_is_zero(term) != 0) return 0;
+  return arb_is_nonnegative(term) != 0 ? 1 : arb_is_nonpositive(term) != 0 ? -1 : 2;
 }
 
 using Series = void (*)(ArbSeries& result, const ArbSeries& a, slong length);
@@ -209,11 +210,10 @@ void ExpressionSeries::run_number(std::size_t n, std::span<const ArbSeries> slot
 
 /// A range that ends at 0 matters: a state does not pass where its derivative is 0.
 void ExpressionSeries::keep_side(std::size_t n) {
-  const Arb value = constant_term(values_[n]);
-  if (side_of(value) != 2 || !value.is_finite()) return;
+  if (side_of_constant_term(values_[n]) != 2) return;
   const Program::Node& node = program_->nodes[n];
-  const int a = side_of(constant_term(values_[node.a]));
-  const int b = is_unary_function(node.op) ? 0 : side_of(constant_term(values_[node.b]));
+  const int a = side_of_constant_term(values_[node.a]);
+  const int b = is_unary_function(node.op) ? 0 : side_of_constant_term(values_[node.b]);
   int side = 2;
   if (node.op == Operator::add) side = side_of_sum(a, b);
   if (node.op == Operator::subtract) side = side_of_sum(a, b == 2 ? 2 : -b);
@@ -221,7 +221,7 @@ void ExpressionSeries::keep_side(std::size_t n) {
   if (node.op == Operator::divide) side = side_of_product(a, b);
   if (node.op < Operator::absolute && is_unary_function(node.op) && smooth_function(node.op).keeps_side)
     side = a;
-  if (side == 1 || side == -1) values_[n].set(0, ending_at_zero(value, side == 1));
+  if (side == 1 || side == -1) values_[n].set(0, ending_at_zero(constant_term(values_[n]), side == 1));
 }
 
 void ExpressionSeries::run_binary(std::size_t n, slong length) {
@@ -273,7 +273,10 @@ void ExpressionSeries::run_power(std::size_t n, slong length) {
   } else {
     arb_poly_pow_ui_trunc_binexp(result.get(), a.get(), times, length, kArbBits);
   }
-  if (times % 2 == 0 && times > 0 && is_wide(constant_term(a))) {
+  const bool is_even = times % 2 == 0 && times > 0;
+  if (is_even && is_wide(constant_term(a)) && times == 2) {
+    result.set(0, squared(constant_term(a)));
+  } else if (is_even && is_wide(constant_term(a))) {
     const Arb size = absolute(constant_term(a));
     Arb least, most;
     arb_pow_ui(least.get(), size.lower().get(), times, kArbBits);

@@ -48,13 +48,13 @@ void ExpressionSeries::extend_number(std::size_t n, std::span<const ArbSeries> s
   const Program::Node& node = program_->nodes[n];
   if (node.op == Operator::constant) return;
   const ArbSeries& a = node.op == Operator::variable ? slots[node.a] : values_[node.a];
-  Arb term = a[k];
+  Arb term;
   switch (node.op) {
     case Operator::add:
-      term = term + values_[node.b][k];
+      term = a[k] + values_[node.b][k];
       break;
     case Operator::subtract:
-      term = term - values_[node.b][k];
+      term = a[k] - values_[node.b][k];
       break;
     case Operator::multiply:
       term = product_term(a, values_[node.b], k);
@@ -65,13 +65,14 @@ void ExpressionSeries::extend_number(std::size_t n, std::span<const ArbSeries> s
     case Operator::divide: {  // term k of b * result is that of a, which so far has no part of b[0]
       const ArbSeries& b = values_[node.b];
       values_[n].set(k, Arb());
-      term = (term - product_term(b, values_[n], k)) / b[0];
+      term = (a[k] - product_term(b, values_[n], k)) / b[0];
       break;
     }
     case Operator::negate:
-      arb_neg(term.get(), term.get());
+      arb_neg(term.get(), a[k].get());
       break;
     default:
+      term = a[k];
       break;
   }
   values_[n].set(k, term);

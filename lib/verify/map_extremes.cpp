@@ -40,12 +40,14 @@ Extreme extreme_of(SeriesField& field, std::size_t equation, const SpanBox& box,
   if (slopes) mean = mean_value_extreme(field, equation, box, *slopes, greatest);
   const auto is_zero = [](double excess) { return excess == 0.0; };
   if (mean && mean->attained && std::all_of(mean->excess.begin(), mean->excess.end(), is_zero)) return *mean;
-  Extreme natural = natural_extreme(field, box, field.value(equation, all_of(box)), greatest);
+  const Arb range = field.value(equation, all_of(box));
   if (mean && mean->attained) {
-    const bool is_better = !natural.bound.is_finite() || is_below(mean->bound, natural.bound) == greatest;
-    if (!is_better) mean->bound = natural.bound;
+    Arb bound = greatest ? range.upper() : range.lower();
+    const bool is_better = !bound.is_finite() || is_below(mean->bound, bound) == greatest;
+    if (!is_better) mean->bound = std::move(bound);
     return *mean;
   }
+  Extreme natural = natural_extreme(field, box, range, greatest);
   const Arb value = field.value(equation, natural.start);
   if (value.is_finite()) natural.attained = value;
   return natural;

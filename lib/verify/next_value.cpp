@@ -13,6 +13,9 @@ ArbBox all_of(const SpanBox& box) {
 /// times what is below it.
 EndChoice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest) {
   const Arb zero;
+  if (arb_equal(span.lower.get(), span.upper.get()) != 0) return {span.lower, zero};
+  if (slope.is_nonnegative() || slope.is_nonpositive())
+    return {slope.is_nonpositive() == greatest ? span.lower : span.upper, zero};
   const Arb width = (span.upper - span.lower).upper();
   const Arb rising = greater(zero, slope.upper());
   const Arb falling = greater(zero, zero - slope.lower());

@@ -19,9 +19,10 @@ Arb from_zero(const Arb& duration) {
   return hull(Arb(), duration);
 }
 
-Arb widened(const Arb& a) {
+Arb widened(Arb a) {
   const Arb margin(0.1 * a.width() + 1e-12 * std::abs(a.approximately()) + 1e-300);
-  return hull(a - margin, a + margin);
+  arb_add_error_arf(a.get(), arb_midref(margin.get()));
+  return a;
 }
 
 int compare(const Arb& a, const Arb& b) {
@@ -49,27 +50,27 @@ std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const A
                                 const std::vector<StopLimits>& limits) {
   Tube tube{.box = start, .change = std::vector<Arb>(field.size())};
   const Arb time = from_zero(duration);
+  std::vector<Arb> next(field.size());
   for (int attempt = 0; attempt < kPicardTries; ++attempt) {
     bool inside = true;
-    ArbBox next = tube.box;
     for (std::size_t i = 0; i < field.size(); ++i) {
       const std::uint32_t slot = field.variables()[i];
       tube.change[i] = field.value(i, tube.box);
       if (!tube.change[i].is_finite()) return std::nullopt;
       const bool may_be_held = !limits.empty() && touches(limits[i], tube.box[slot]);
       if (may_be_held) tube.change[i] = hull(tube.change[i], Arb());
-      next[slot] = start[slot] + time * tube.change[i];
-      if (may_be_held) next[slot] = within(limits[i], next[slot]);
-      inside = inside && tube.box[slot].holds(next[slot]);
+      next[i] = start[slot] + time * tube.change[i];
+      if (may_be_held) next[i] = within(limits[i], next[i]);
+      inside = inside && tube.box[slot].holds(next[i]);
     }
     if (inside) {
       // The box that the solutions move on to is a tube as well, and a narrower one.
-      tube.box = std::move(next);
+      for (std::size_t i = 0; i < field.size(); ++i) tube.box[field.variables()[i]] = std::move(next[i]);
       return tube;
     }
     for (std::size_t i = 0; i < field.size(); ++i) {
       const std::uint32_t slot = field.variables()[i];
-      tube.box[slot] = hull(tube.box[slot], widened(hull(start[slot], next[slot])));
+      tube.box[slot] = hull(tube.box[slot], widened(hull(start[slot], next[i])));
       if (limits.empty()) continue;
       // Only there are ends of balls exact.
       if (limits[i].below && limits[i].below->is_zero())

@@ -44,11 +44,17 @@ SeriesField::SeriesField(const SystemSpec& spec, const Influences& influences,
     auto& row = mentions_.emplace_back();
     for (const std::uint32_t slot : variables_)
       row.push_back(std::binary_search(mentioned.begin(), mentioned.end(), slot));
+    mentioned_.push_back(mentioned);
   }
 }
 
 void SeriesField::put(const ArbBox& box) {
   for (std::size_t s = 0; s < box.size(); ++s) slots_[s].assign(box[s]);
+}
+
+/// What one equation needs of it.
+void SeriesField::put(std::size_t equation, const ArbBox& box) {
+  for (const std::uint32_t slot : mentioned_[equation]) slots_[slot].assign(box[slot]);
 }
 
 /// A product of series takes as many operations as the square of their length.
@@ -85,14 +91,23 @@ std::vector<ArbBox> SeriesField::seen(const ArbBox& box, std::optional<std::size
   return parts;
 }
 
+/// @returns null if the box is seen in parts
+const ArbBox* SeriesField::seen_whole(const ArbBox& box, std::optional<std::size_t> equation) {
+  if (seams_.empty()) return &box;
+  std::vector<ArbBox> parts = seen(box, equation);
+  if (parts.size() > 1) return nullptr;
+  part_ = std::move(parts.front());
+  return &part_;
+}
+
 Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
   if (seams_.empty()) {
-    put(box);
+    put(equation, box);
     return run(equation, 1)[0];
   }
   std::optional<Arb> all;
   for (const ArbBox& part : seen(box, equation)) {
-    put(part);
+    put(equation, part);
     const Arb own = run(equation, 1)[0];
     all = all ? hull(*all, own) : own;
   }
@@ -100,9 +115,9 @@ Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
 }
 
 std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const ArbBox& box) {
-  const std::vector<ArbBox> parts = seen(box, equation);
-  if (parts.size() > 1) return std::nullopt;
-  put(parts.front());
+  const ArbBox* const whole = seen_whole(box, equation);
+  if (whole == nullptr) return std::nullopt;
+  put(equation, *whole);
   std::vector<Arb> result;
   for (std::size_t j = 0; j < variables_.size(); ++j) {
     const std::uint32_t slot = variables_[j];
@@ -112,7 +127,7 @@ std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const 
     }
     slots_[slot].set(1, Arb(1.0));
     const Arb slope = run(equation, 2)[1];
-    slots_[slot].assign(parts.front()[slot]);
+    slots_[slot].assign((*whole)[slot]);
     if (equations_[equation].smoothness() == Smoothness::jumps || !slope.is_finite()) return std::nullopt;
     result.push_back(slope);
   }
@@ -130,9 +145,9 @@ std::optional<ArbMatrix> SeriesField::jacobian(const ArbBox& box) {
 }
 
 std::optional<std::vector<ArbSeries>> SeriesField::taylor(const ArbBox& box, slong length) {
-  const std::vector<ArbBox> parts = seen(box, std::nullopt);
-  if (parts.size() > 1) return std::nullopt;
-  put(parts.front());
+  const ArbBox* const whole = seen_whole(box, std::nullopt);
+  if (whole == nullptr) return std::nullopt;
+  put(*whole);
   for (slong known = 1; known < length; ++known) {
     std::vector<Arb> next;
     for (std::size_t i = 0; i < equations_.size(); ++i) {

@@ -54,15 +54,19 @@ class SeriesField {
 
  private:
   void put(const ArbBox& box);
+  void put(std::size_t equation, const ArbBox& box);
   [[nodiscard]] std::vector<ArbBox> seen(const ArbBox& box, std::optional<std::size_t> equation) const;
+  [[nodiscard]] const ArbBox* seen_whole(const ArbBox& box, std::optional<std::size_t> equation);
   const ArbSeries& run(std::size_t equation, slong length);
   const ArbSeries& extend(std::size_t equation, slong length);
 
   std::vector<ExpressionSeries> equations_;
-  std::vector<std::vector<bool>> mentions_;  ///< [equation][variable]
+  std::vector<std::vector<bool>> mentions_;            ///< [equation][variable]
+  std::vector<std::vector<std::uint32_t>> mentioned_;  ///< [equation]: slots
   std::vector<std::uint32_t> variables_;
   std::vector<Seam> seams_;
   std::vector<ArbSeries> slots_;
+  ArbBox part_;  ///< a box as it is seen at a seam
   Work work_ = 0;
 };
 
