@@ -25,7 +25,7 @@ struct EndCells {
 /// Divides a box into parts where the enclosure of what it leads to meets more cells than need be. In each
 /// round the part that decides over the end that lies farthest from all that is known to be reached is
 /// halved; parts without an enclosure come first. What ends it is the number of parts that were enclosed, so
-/// that the result is the same on every machine.
+/// that the result is the same on every machine; and it is given up where that number would be far too large.
 ///
 /// Scratch memory for one thread.
 class BoxDivision {
