@@ -340,7 +340,11 @@ void corrupt_path(Claims& claims, std::size_t requirement, const UniformGrid& gr
   std::vector<double>& inputs = claims.fields.at(of_path(requirement, "input")).numbers;
   const std::size_t steps = list("phase").size();
   const auto step = static_cast<std::size_t>(draw(0, static_cast<int>(steps) - 1));
-  switch (draw(0, 4)) {
+  std::int64_t& seen = claims.fields.at(counterexample_path("seen")).integers[requirement];
+  switch (draw(0, 5)) {
+    case 5:
+      seen = seen == ResultPath::kNotFollowed ? 3 : ResultPath::kNotFollowed;
+      return;
     case 0:
       claims.fields.at(of_path(requirement, "state")).numbers[step * grid.size()] += 1;
       return;

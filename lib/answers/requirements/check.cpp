@@ -168,11 +168,18 @@ class RequirementChecker {
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
     if (Rank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
-    // The step at which the system itself leaves is an observation, but cannot be before the proven one.
-    const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
-    const std::int32_t soonest = value >= 0 ? value + 1 : is_after ? 1 : collision_time_[first];
-    if (path.seen > 0 && path.seen < soonest) wrong("the system itself leaves sooner than is proven");
+    check_seen(path, value);
     PathChecker(context_, asked_).check(path, tally_);
+  }
+
+  /// The step at which the system itself leaves is an observation, but cannot be before the proven one.
+  void check_seen(const ResultPath& path, std::int32_t value) {
+    if (is_followed(asked_.kind, path) != (path.seen != ResultPath::kNotFollowed))
+      wrong("the system itself is followed where it is not, or the other way round");
+    if (path.seen <= 0) return;
+    const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
+    const std::int64_t proven = value >= 0 ? value : is_after ? 0 : collision_time_[path.cell.front()] - 1;
+    if (path.seen <= proven) wrong("the system itself leaves sooner than is proven");
   }
 
   /// Whether there is `then`: the file does not have the steps after which it leaves S.

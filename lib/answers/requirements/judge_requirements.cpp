@@ -114,13 +114,6 @@ class Judge {
     return path;
   }
 
-  /// Whether the system itself is followed: for requirements about safety in which agents see everything.
-  [[nodiscard]] static bool is_followed(RequirementKind kind, const ResultPath& path) {
-    const bool is_alike = kind == RequirementKind::min_delay || kind == RequirementKind::invariant ||
-                          kind == RequirementKind::min_silence;
-    return is_alike && path.steps() > 0;
-  }
-
   const Answers& answers_;
   const AnalysisContext& context_;
   const Controller& controller_;

@@ -49,6 +49,12 @@ void take_risk(const RequirementSpec& asked, double risk, const FieldSource& sou
 
 }  // namespace
 
+bool is_followed(RequirementKind kind, const ResultPath& path) {
+  const bool is_alike = kind == RequirementKind::min_delay || kind == RequirementKind::invariant ||
+                        kind == RequirementKind::min_silence;
+  return is_alike && path.steps() > 0;
+}
+
 std::string counterexample_path(const std::string& name) {
   return "/counterexample/" + name;
 }

@@ -70,6 +70,10 @@ struct ResultPath {
   [[nodiscard]] bool operator==(const ResultPath&) const = default;
 };
 
+/// Whether the system itself is followed from where a counterexample begins: for requirements about safety in
+/// which agents see everything.
+[[nodiscard]] bool is_followed(RequirementKind kind, const ResultPath& path);
+
 struct ResultRequirement {
   std::string name;
   bool holds = false;
