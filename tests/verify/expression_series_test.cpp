@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "answers/checking/sloped.hpp"
 #include "expression/domains.hpp"
@@ -93,6 +95,20 @@ TEST(ExpressionSeries, OfARangeEveryFunctionHoldsTheValuesInIt) {
         EXPECT_GE(range.upper().approximately(), value - 1e-12);
       }
     }
+  }
+}
+
+TEST(ExpressionSeries, ASquareEndsAtTheSquaresOfTheEnds) {
+  const std::pair<double, double> ranges[] = {{-1, 2}, {1, 2},  {-2, -1}, {0, 3},
+                                              {-3, 0}, {-2, 2}, {5, 5},   {0, 0}};
+  for (const auto& [from, to] : ranges) {
+    const Arb square = squared(hull(Arb(from), Arb(to)));
+    const double least = from <= 0 && to >= 0 ? 0.0 : std::min(from * from, to * to);
+    const double most = std::max(from * from, to * to);
+    EXPECT_TRUE(square.holds(hull(Arb(least), Arb(most)))) << from << ' ' << to;
+    EXPECT_TRUE(square.is_nonnegative()) << from << ' ' << to;
+    EXPECT_NEAR(square.lower().approximately(), least, 1e-8 * most);
+    EXPECT_NEAR(square.upper().approximately(), most, 1e-8 * most);
   }
 }
 
