@@ -152,6 +152,16 @@ class Cases(Case):
             result = self.run_program("verify", "r.h5")
             self.assertEqual(result.returncode, 0, result.stdout.decode())
 
+    def test_no_run_is_seen_on_the_way_to_a_goal(self):
+        self.write("spec.json", spec(*TWO, WALK, "p == 0 or q == 0", requirements=[{"name": "r", "where": "true", "max_arrival": 1}]))
+        self.run_program("analyze", "spec.json", "-o", "r.h5")
+        with h5py.File(self.folder / "r.h5", "r+") as file:
+            self.assertEqual(file["counterexample/seen"][:].tolist(), [0])
+            file["counterexample/seen"][0] = 3
+        result = self.run_program("verify", "r.h5")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(b"a run of the system itself where none is followed", result.stdout)
+
     def test_conventions_and_stored_actions_lead_to_the_goal(self):
         problem = spec(*TWO, WALK, "p == 0 or q == 0")
         problem["coordination"] = {"convention": True}

@@ -342,9 +342,6 @@ void corrupt_path(Claims& claims, std::size_t requirement, const UniformGrid& gr
   const auto step = static_cast<std::size_t>(draw(0, static_cast<int>(steps) - 1));
   std::int64_t& seen = claims.fields.at(counterexample_path("seen")).integers[requirement];
   switch (draw(0, 5)) {
-    case 5:
-      seen = seen == ResultPath::kNotFollowed ? 3 : ResultPath::kNotFollowed;
-      return;
     case 0:
       claims.fields.at(of_path(requirement, "state")).numbers[step * grid.size()] += 1;
       return;
@@ -356,6 +353,9 @@ void corrupt_path(Claims& claims, std::size_t requirement, const UniformGrid& gr
       return;
     case 3:
       list("phase")[step] = list("phase")[step] == 1 ? 0 : 1;  // evasive, independent
+      return;
+    case 4:
+      seen = seen == ResultPath::kNotFollowed ? 3 : ResultPath::kNotFollowed;
       return;
     default:
       list("cell")[step] = (list("cell")[step] + 1) % grid.cells();

@@ -175,10 +175,11 @@ class RequirementChecker {
   /// The step at which the system itself leaves is an observation, but cannot be before the proven one.
   void check_seen(const ResultPath& path, std::int32_t value) {
     if (is_followed(asked_.kind, path) != (path.seen != ResultPath::kNotFollowed))
-      wrong("the system itself is followed where it is not, or the other way round");
+      return wrong("a run of the system itself where none is followed, or none where one is");
     if (path.seen <= 0) return;
     const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
-    const std::int64_t proven = value >= 0 ? value : is_after ? 0 : collision_time_[path.cell.front()] - 1;
+    const std::int64_t left = collision_time_[path.cell.front()];  // the claim may be any number
+    const std::int64_t proven = value >= 0 ? value : is_after ? 0 : left - 1;
     if (path.seen <= proven) wrong("the system itself leaves sooner than is proven");
   }
 
