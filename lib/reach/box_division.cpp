@@ -14,6 +14,10 @@ namespace {
 constexpr double kCloseSteps = 0.05;
 /// Where one half after another has no enclosure, the smallest is as good as a point after so many.
 constexpr int kDeepestFailure = 40;
+/// The work of a usual part, in steps of a box: one of van der Pol's equation takes so many.
+constexpr std::int64_t kUsualSteps = 400;
+/// So many more for one part are paid for by others.
+constexpr std::int64_t kDearSteps = 800;
 /// Twice as many parts have to leave less than this share of what was missing.
 constexpr double kWorthwhile = 0.95;
 /// Before so many parts, and before this share of the effort, it is not asked whether the effort can be
@@ -61,19 +65,32 @@ void BoxDivision::begin(std::vector<Interval> reached) {
   std::fill(given_up_.begin(), given_up_.end(), false);
 }
 
+void BoxDivision::charge(std::int64_t steps) {
+  work_ += std::max<std::int64_t>(steps - kDearSteps, 0);
+}
+
+/// The number of usual parts that would have taken the work so far.
+std::int64_t BoxDivision::parts_worth() const {
+  return work_ / kUsualSteps;
+}
+
 void BoxDivision::add(std::vector<Interval> box, const FlowEnclosure& found, int depth) {
-  ++work_;
+  work_ += kUsualSteps;
   parts_.push_back({std::move(box), found, depth});
   if (found.reached.empty()) return;
   if (reached_.empty()) reached_ = found.reached;
   for (std::size_t i = 0; i < reached_.size(); ++i) reached_[i] = hull(reached_[i], found.reached[i]);
 }
 
+bool BoxDivision::is_lost() const {
+  return parts_worth() + 2 > effort_ && deepest_failure() < parts_.size();
+}
+
 bool BoxDivision::refine(const Enclose& enclose) {
   const std::size_t first_parts = parts_.size();
   for (;;) {
     const std::size_t failed = deepest_failure();
-    const bool enough = work_ + 2 > effort_;
+    const bool enough = parts_worth() + 2 > effort_;
     if (failed < parts_.size()) {
       const bool smallest = parts_[failed].depth >= kDeepestFailure;
       if (enough || smallest || !has_hope(first_parts) || !halve(failed, enclose)) return false;
@@ -101,13 +118,13 @@ bool BoxDivision::still_pays() {
 /// Whether the effort could be enough for an enclosure of each part, by the share of the box that those found
 /// so far cover. @param first_parts so many were equal shares of it
 bool BoxDivision::has_hope(std::size_t first_parts) const {
-  if (work_ < std::max(kFirstParts, effort_ / kFirstShare)) return true;
+  if (parts_worth() < std::max(kFirstParts, effort_ / kFirstShare)) return true;
   double covered = 0.0;
   for (const Part& part : parts_) {
     if (part.found.status == FlowEnclosure::Status::ok) covered += std::ldexp(1.0, -part.depth);
   }
   const double share = covered / static_cast<double>(first_parts);
-  return static_cast<double>(work_) <= kHopefulEfforts * static_cast<double>(effort_) * share;
+  return static_cast<double>(parts_worth()) <= kHopefulEfforts * static_cast<double>(effort_) * share;
 }
 
 /// @returns false if it is too small to be halved

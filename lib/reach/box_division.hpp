@@ -24,8 +24,9 @@ struct EndCells {
 
 /// Divides a box into parts where the enclosure of what it leads to meets more cells than need be. In each
 /// round the part that decides over the end that lies farthest from all that is known to be reached is
-/// halved; parts without an enclosure come first. What ends it is the number of parts that were enclosed, so
-/// that the result is the same on every machine; and it is given up where that number would be far too large.
+/// halved; parts without an enclosure come first. What ends it is the number of parts that were enclosed,
+/// each as many as its work is worth, so that the result is the same on every machine; and it is given up
+/// where that number would be far too large.
 ///
 /// Scratch memory for one thread.
 class BoxDivision {
@@ -40,7 +41,7 @@ class BoxDivision {
 
   /// @param targets what the result has to be tight for
   /// @param steps of the grid, one a dimension of the box: where nothing else tells the widest one is halved
-  /// @param effort so many parts are enclosed at most
+  /// @param effort so many parts are enclosed at most, fewer where parts are costly
   BoxDivision(std::vector<EndCells> targets, std::vector<double> steps, std::int64_t effort);
 
   [[nodiscard]] std::int64_t effort() const { return effort_; }
@@ -50,8 +51,13 @@ class BoxDivision {
 
   /// No parts yet. @param reached from parts of the box that are not looked at again; empty: nothing is known
   void begin(std::vector<Interval> reached);
+  /// Work that a part costs besides: more than twice that of a usual part takes the place of others.
+  /// @param steps see ValidatedFlow::extra_steps()
+  void charge(std::int64_t steps);
   /// A part with its enclosure.
   void add(std::vector<Interval> box, const FlowEnclosure& found, int depth = 0);
+  /// Whether a part has no enclosure and nothing of the effort is left.
+  [[nodiscard]] bool is_lost() const;
   /// Halves parts for as long as it pays. @returns whether all of them have enclosures
   bool refine(const Enclose& enclose);
 
@@ -68,14 +74,15 @@ class BoxDivision {
   [[nodiscard]] std::size_t owner(std::size_t side) const;
   [[nodiscard]] bool still_pays();
   [[nodiscard]] bool has_hope(std::size_t first_parts) const;
+  [[nodiscard]] std::int64_t parts_worth() const;
 
   std::vector<EndCells> targets_;
   std::vector<double> steps_;
-  std::int64_t effort_;
+  std::int64_t effort_;  ///< the most parts
 
   std::vector<Part> parts_;
   std::vector<Interval> reached_;
-  std::int64_t work_ = 0;       ///< parts that have been enclosed
+  std::int64_t work_ = 0;       ///< of the parts that have been enclosed, in steps of a box
   std::vector<bool> given_up_;  ///< lower and upper end of every target
   std::size_t next_check_ = 0;  ///< number of parts at which it is asked whether it still pays
   double missed_ = 0.0;         ///< at the last check

@@ -79,6 +79,7 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
     parts = std::min(parts, left);
     if (settles_) parts = std::min(parts, std::max(left / 2, kFine / 16));
     const double share = static_cast<double>(parts) / static_cast<double>(kFaceParts);
+    ++tries_;
     if (tries == kFaceMostTries) return FlowFailure{false, worst_};
     if (try_step(period * Interval(share), parts > kFine)) {
       left -= parts;

@@ -35,6 +35,8 @@ class FaceFlow {
 
   /// The fastest decay that was met, in units of one over time: what makes steps small.
   [[nodiscard]] double fastest_decay() const { return fastest_decay_; }
+  /// Sub-steps that were tried so far.
+  [[nodiscard]] std::int64_t tries() const { return tries_; }
 
  private:
   [[nodiscard]] static std::size_t side(std::size_t i, bool upper) { return 2 * i + (upper ? 1 : 0); }
@@ -76,6 +78,7 @@ class FaceFlow {
   std::vector<bool> simple_;   ///< it is followed by values over all of the step
   std::vector<FaceSlope::Bound> bounds_;
   double fastest_decay_ = 0.0;
+  std::int64_t tries_ = 0;
   bool settles_ = false;  ///< some end has been followed so
   bool undefined_ = false;
   std::size_t worst_ = 0;

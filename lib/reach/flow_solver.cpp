@@ -25,6 +25,9 @@ constexpr std::uint32_t kSmallOnSeam = kParts / 64;
 constexpr double kWidthTolerance = 1e-7;
 constexpr double kMagnitudeTolerance = 1e-15;
 constexpr double kLeastTolerance = 1e-290;
+/// A step by faces costs as much as so many of a box; so many sub-steps along a solution as one of them.
+constexpr std::int64_t kFaceWork = 8;
+constexpr std::int64_t kNominalPerStep = 8;
 /// A state that decays faster than this within the step counts as damped without bound.
 constexpr double kStrongDecay = 8.0;
 
@@ -114,6 +117,10 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
   }
   result_.end = now_;
   return true;
+}
+
+std::int64_t ValidatedFlow::Solver::extra_steps() const {
+  return kFaceWork * faces_.tries() + nominal_.tries() / kNominalPerStep;
 }
 
 /// The state that changes most in the last step.

@@ -38,6 +38,7 @@ class ValidatedFlow::Solver {
   const FlowEnclosure& flow_of_part(std::span<const Interval> slots);
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
+  [[nodiscard]] std::int64_t extra_steps() const;
   [[nodiscard]] const FlowSystem& system() const { return system_; }
   [[nodiscard]] const Interval& period() const { return period_; }
 

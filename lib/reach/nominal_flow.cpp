@@ -67,6 +67,7 @@ bool NominalFlow::advance(const Interval& duration, const Choices& choices, std:
   int successes = 0;
   while (left > 0) {
     parts = std::min(parts, left);
+    ++tries_;
     if (try_step(part(duration, parts), parts == 1, tolerance, state)) {
       left -= parts;
       if (++successes % kNominalPatience == 0) parts *= 2;

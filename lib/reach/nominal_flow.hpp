@@ -35,6 +35,9 @@ class NominalFlow {
   bool advance(const Interval& duration, const Choices& choices, std::span<const double> tolerance,
                State& state);
 
+  /// Sub-steps that were tried so far.
+  [[nodiscard]] std::int64_t tries() const { return tries_; }
+
  private:
   bool try_step(const Interval& duration, bool smallest, std::span<const double> tolerance, State& state);
   bool find_phases(const Interval& duration, const State& state);
@@ -51,6 +54,7 @@ class NominalFlow {
   std::vector<StopPhase> phases_;
   std::vector<bool> held_;
   std::vector<double> tolerance_;
+  std::int64_t tries_ = 0;
 };
 
 /// @param derivative f over `box`, which holds the solutions from `start` for `duration`

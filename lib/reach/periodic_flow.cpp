@@ -79,6 +79,12 @@ const FlowEnclosure& PeriodicFlow::flow_of_part(std::span<const Interval> slots)
   return flow(slots, true);
 }
 
+std::int64_t PeriodicFlow::extra_steps() const {
+  const std::int64_t wound =
+      windings_.empty() ? 0 : followed_->flow.extra_steps() + anywhere_->flow.extra_steps();
+  return plain_.extra_steps() + wound;
+}
+
 bool PeriodicFlow::keeps_apart(std::span<const Interval> box) {
   const bool inside = std::all_of(windings_.begin(), windings_.end(), [&](const Winding& winding) {
     const Interval& range = box[winding.state];

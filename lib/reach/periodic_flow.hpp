@@ -37,6 +37,9 @@ class PeriodicFlow {
   /// equation mentions gets to its seam there. For the slots of the last flow().
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
+  /// See ValidatedFlow.
+  [[nodiscard]] std::int64_t extra_steps() const;
+
   /// About.
   [[nodiscard]] double period() const { return period_; }
 

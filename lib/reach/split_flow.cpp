@@ -47,7 +47,10 @@ const FlowEnclosure& SplitFlow::flow(std::span<const Interval> slots) {
 
 const FlowEnclosure& SplitFlow::flow_of_part(std::span<const Interval> box) {
   for (std::size_t i = 0; i < box.size(); ++i) slots_[state_slots_[i]] = box[i];
-  return flow_.flow_of_part(slots_);
+  const std::int64_t before = flow_.extra_steps();
+  const FlowEnclosure& found = flow_.flow_of_part(slots_);
+  division_.charge(flow_.extra_steps() - before);
+  return found;
 }
 
 bool SplitFlow::can_use_faces() {
@@ -80,6 +83,17 @@ std::vector<std::vector<Interval>> SplitFlow::close_parts(std::vector<std::vecto
   return close;
 }
 
+/// Encloses the parts, and halves of them where that pays. @returns whether all have enclosures
+bool SplitFlow::refine(std::vector<std::vector<Interval>> parts) {
+  for (std::vector<Interval>& part : parts) {
+    const FlowEnclosure& found = flow_of_part(part);
+    division_.add(std::move(part), found);
+    if (division_.is_lost()) return false;
+  }
+  return division_.refine(
+      [this](std::span<const Interval> box) -> const FlowEnclosure& { return flow_of_part(box); });
+}
+
 /// @returns whether that gave an enclosure of the whole
 bool SplitFlow::divide_faces() {
   division_.begin(result_.reached);
@@ -90,22 +104,18 @@ bool SplitFlow::divide_faces() {
       faces.back()[i] = Interval(end);
     }
   }
-  for (const std::vector<Interval>& face : close_parts(std::move(faces)))
-    division_.add(face, flow_of_part(face));
-  return division_.refine([this](std::span<const Interval> box) -> const FlowEnclosure& {
-    return flow_of_part(box);
-  }) && faces_are_enough();
+  return refine(close_parts(std::move(faces))) && faces_are_enough();
 }
 
 /// @returns whether all parts have enclosures
 bool SplitFlow::divide_all() {
   division_.begin(result_.reached);
-  const std::vector<std::vector<Interval>> parts = close_parts({box_});
-  if (parts.size() == 1) division_.add(box_, result_);
-  for (std::size_t p = 0; p < parts.size() && parts.size() > 1; ++p)
-    division_.add(parts[p], flow_of_part(parts[p]));
-  return division_.refine(
-      [this](std::span<const Interval> box) -> const FlowEnclosure& { return flow_of_part(box); });
+  std::vector<std::vector<Interval>> parts = close_parts({box_});
+  if (parts.size() == 1) {
+    division_.add(box_, result_);
+    parts.clear();
+  }
+  return refine(std::move(parts));
 }
 
 /// Whether nothing from inside the box can pass what its faces lead to.

@@ -35,6 +35,7 @@ class SplitFlow {
  private:
   [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> box);
   [[nodiscard]] bool can_use_faces();
+  bool refine(std::vector<std::vector<Interval>> parts);
   bool divide_faces();
   bool divide_all();
   [[nodiscard]] std::vector<std::vector<Interval>> close_parts(std::vector<std::vector<Interval>> boxes);

@@ -29,6 +29,10 @@ const FlowEnclosure& ValidatedFlow::flow_of_part(std::span<const Interval> slots
   return solver_->flow_of_part(slots);
 }
 
+std::int64_t ValidatedFlow::extra_steps() const {
+  return solver_->extra_steps();
+}
+
 bool ValidatedFlow::keeps_apart(std::span<const Interval> box) {
   return solver_->keeps_apart(box);
 }

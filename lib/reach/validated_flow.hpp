@@ -70,6 +70,10 @@ class ValidatedFlow {
   /// constant on it and a little beyond, and nothing stops there. For the slots of the last flow().
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
+  /// The work since this object was made that the number of steps of a box does not limit: steps by faces,
+  /// and sub-steps along solutions. In steps of a box, by what they cost beside them.
+  [[nodiscard]] std::int64_t extra_steps() const;
+
  private:
   class Solver;
   std::unique_ptr<Solver> solver_;

@@ -73,6 +73,35 @@ TEST(BoxDivision, NeverEnclosesMorePartsThanTheEffort) {
   }
 }
 
+TEST(BoxDivision, DearPartsTakeThePlaceOfOthers) {
+  constexpr std::int64_t kEffort = 100;
+  int usual = 0;
+  for (const std::int64_t steps : {0, 400, 4000}) {
+    BoxDivision division({{.step = 1e-4, .placed = false}}, {1.0}, kEffort);
+    Parabola f;
+    const auto enclose = [&](std::span<const Interval> part) -> const FlowEnclosure& {
+      division.charge(steps);
+      return f(part);
+    };
+    const std::vector<Interval> box{Interval{-1.0, 2.0}};
+    division.begin({});
+    division.add(box, enclose(box));
+    EXPECT_TRUE(division.refine(enclose));
+    EXPECT_FALSE(division.is_lost());
+    if (steps == 0) usual = f.calls;
+    EXPECT_TRUE(steps == 4000 ? f.calls < usual / 5 : f.calls == usual) << steps << " steps: " << f.calls;
+  }
+}
+
+TEST(BoxDivision, IsLostWithoutEffortForWhatHasNoEnclosure) {
+  BoxDivision division({{.step = 10.0}}, {1.0}, 2);
+  Parabola nowhere(0.0);
+  const std::vector<Interval> box{Interval{-1.0, 2.0}};
+  division.begin({});
+  division.add(box, nowhere(box));
+  EXPECT_TRUE(division.is_lost());
+}
+
 TEST(BoxDivision, PartsWithoutEnclosuresAreHalvedFirst) {
   EXPECT_TRUE(divide({.step = 10.0}, 1000, 0.5).found);
   EXPECT_FALSE(divide({.step = 10.0}, 10, 0.5).found);  // six parts are needed, and those on the way
