@@ -245,7 +245,7 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
   const std::optional<CoarseCopy> copy = if_possible(coarser).value_or(std::nullopt);
   if (!copy) return "";
   ProblemSpec base = copy->spec;
-  // Parts of a cell may cost a thousand times what its entry is reckoned to; without them less is promised.
+  // Parts of a cell may cost a thousand times what its entry is reckoned to; without them posts are wider.
   if (spec.dynamics.time == Time::continuous) base.abstraction.effort = 0;
   const Trials trials = try_all(base, fault, team);
   if (trials.tried == 0) return "";
