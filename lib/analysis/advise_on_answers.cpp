@@ -242,12 +242,11 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
                      ThreadTeam& team) {
   const double most_entries = kMostWorkOfTables / work_of_entry(spec);
   const auto coarser = [&] { return coarse_copy(spec, partition, kMostCells, most_entries); };
-  const std::optional<CoarseCopy> copy = if_possible(coarser).value_or(std::nullopt);
+  std::optional<CoarseCopy> copy = if_possible(coarser).value_or(std::nullopt);
   if (!copy) return "";
-  ProblemSpec base = copy->spec;
   // Parts of a cell may cost a thousand times what its entry is reckoned to; without them posts are wider.
-  if (spec.dynamics.time == Time::continuous) base.abstraction.effort = 0;
-  const Trials trials = try_all(base, fault, team);
+  if (spec.dynamics.time == Time::continuous) copy->spec.abstraction.effort = 0;
+  const Trials trials = try_all(copy->spec, fault, team);
   if (trials.tried == 0) return "";
   const std::string count =
       fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));

@@ -14,10 +14,11 @@ namespace {
 constexpr double kCloseSteps = 0.05;
 /// Where one half after another has no enclosure, the smallest is as good as a point after so many.
 constexpr int kDeepestFailure = 40;
-/// The work of a usual part, in steps of a box: one of van der Pol's equation takes so many.
-constexpr std::int64_t kUsualSteps = 400;
-/// So many more for one part are paid for by others.
-constexpr std::int64_t kDearSteps = 800;
+/// What a part counts for, and what it may take besides without counting for more, in sub-steps along a
+/// solution: chosen so that van der Pol's equation keeps its parts where it is stiff, while those random
+/// systems that took longest get a third of them.
+constexpr std::int64_t kUsualSteps = 800;
+constexpr std::int64_t kDearSteps = 1600;
 /// Twice as many parts have to leave less than this share of what was missing.
 constexpr double kWorthwhile = 0.95;
 /// Before so many parts, and before this share of the effort, it is not asked whether the effort can be
@@ -69,7 +70,7 @@ void BoxDivision::charge(std::int64_t steps) {
   work_ += std::max<std::int64_t>(steps - kDearSteps, 0);
 }
 
-/// The number of usual parts that would have taken the work so far.
+/// The number of usual parts that count for as much as those so far.
 std::int64_t BoxDivision::parts_worth() const {
   return work_ / kUsualSteps;
 }
@@ -82,15 +83,20 @@ void BoxDivision::add(std::vector<Interval> box, const FlowEnclosure& found, int
   for (std::size_t i = 0; i < reached_.size(); ++i) reached_[i] = hull(reached_[i], found.reached[i]);
 }
 
+/// Whether nothing is left for another two halves.
+bool BoxDivision::is_spent() const {
+  return parts_worth() + 2 > effort_;
+}
+
 bool BoxDivision::is_lost() const {
-  return parts_worth() + 2 > effort_ && deepest_failure() < parts_.size();
+  return is_spent() && deepest_failure() < parts_.size();
 }
 
 bool BoxDivision::refine(const Enclose& enclose) {
   const std::size_t first_parts = parts_.size();
   for (;;) {
     const std::size_t failed = deepest_failure();
-    const bool enough = parts_worth() + 2 > effort_;
+    const bool enough = is_spent();
     if (failed < parts_.size()) {
       const bool smallest = parts_[failed].depth >= kDeepestFailure;
       if (enough || smallest || !has_hope(first_parts) || !halve(failed, enclose)) return false;

@@ -51,7 +51,7 @@ class BoxDivision {
 
   /// No parts yet. @param reached from parts of the box that are not looked at again; empty: nothing is known
   void begin(std::vector<Interval> reached);
-  /// Work that a part costs besides: more than twice that of a usual part takes the place of others.
+  /// Work that a part costs besides: what is more than usual takes the place of other parts.
   /// @param steps see ValidatedFlow::extra_steps()
   void charge(std::int64_t steps);
   /// A part with its enclosure.
@@ -75,14 +75,15 @@ class BoxDivision {
   [[nodiscard]] bool still_pays();
   [[nodiscard]] bool has_hope(std::size_t first_parts) const;
   [[nodiscard]] std::int64_t parts_worth() const;
+  [[nodiscard]] bool is_spent() const;
 
   std::vector<EndCells> targets_;
   std::vector<double> steps_;
-  std::int64_t effort_;  ///< the most parts
+  std::int64_t effort_;  ///< the most usual parts
 
   std::vector<Part> parts_;
   std::vector<Interval> reached_;
-  std::int64_t work_ = 0;       ///< of the parts that have been enclosed, in steps of a box
+  std::int64_t work_ = 0;       ///< of the parts that have been enclosed, in sub-steps along a solution
   std::vector<bool> given_up_;  ///< lower and upper end of every target
   std::size_t next_check_ = 0;  ///< number of parts at which it is asked whether it still pays
   double missed_ = 0.0;         ///< at the last check

@@ -71,7 +71,7 @@ class ValidatedFlow {
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
   /// The work since this object was made that the number of steps of a box does not limit: steps by faces,
-  /// and sub-steps along solutions. In steps of a box, by what they cost beside them.
+  /// and sub-steps along solutions; in such sub-steps.
   [[nodiscard]] std::int64_t extra_steps() const;
 
  private:
