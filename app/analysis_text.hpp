@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "spec/spec_types.hpp"
 
 // An analysis in words, from the summary of analyze().

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/analyze_options.hpp"
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {

@@ -8,6 +8,7 @@
 
 #include "app/analysis_text.hpp"
 #include "app/answers/all.hpp"
+#include "base/json.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -123,7 +124,7 @@ std::vector<Table::Align> alignment(std::size_t labels, std::size_t columns) {
 
 /// The value parsed as JSON, or the text if it is none.
 Json value_json(const std::string& value) {
-  const Json json = Json::parse(value, nullptr, false);
+  const Json json = parse_json_if_valid(value);
   return json.is_discarded() ? Json(value) : json;
 }
 

@@ -7,8 +7,8 @@
 
 #include "app/answers/all.hpp"
 #include "app/batch_plan.hpp"
-#include "app/json_text.hpp"
 #include "app/text.hpp"
+#include "base/json.hpp"
 
 namespace coordreq {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "cell/explain_delay.hpp"
 #include "cell/state_query.hpp"
 #include "results/results_reader.hpp"

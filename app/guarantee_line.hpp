@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {

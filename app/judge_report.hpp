@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "cell/log_judge.hpp"
 #include "results/results_reader.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {

@@ -3,8 +3,8 @@
 #include <set>
 #include <string>
 
-#include "app/json_text.hpp"
 #include "app/options.hpp"
+#include "base/json.hpp"
 
 namespace coordreq {
 

@@ -3,10 +3,10 @@
 #include "answers/field_parts.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/plan.hpp"
-#include "app/json_text.hpp"
 #include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
+#include "base/json.hpp"
 #include "model/outside_word.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -204,7 +204,7 @@ std::string answer_json_line(const StateAnswer& answer, const QueryForm& form,
   if (extra != nullptr) json["extra"] = Json::object();
   for (std::size_t i = 0; extra != nullptr && i < extra->size(); ++i)
     json["extra"][(*extra)[i].name] =
-        (*extra)[i].is_json ? Json::parse((*extra)[i].value) : Json((*extra)[i].value);
+        (*extra)[i].is_json ? parse_json((*extra)[i].value) : Json((*extra)[i].value);
   return json_line(json);
 }
 

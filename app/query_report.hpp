@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/json_text.hpp"
 #include "app/options.hpp"
+#include "base/json.hpp"
 #include "cell/state_query.hpp"
 #include "cell/state_reader.hpp"
 #include "results/results_reader.hpp"

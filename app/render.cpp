@@ -1,4 +1,5 @@
 #include "app/render.hpp"
+#include "base/json.hpp"
 
 #include <fmt/format.h>
 
@@ -87,7 +88,7 @@ std::string others_text(const Json& document, const std::vector<std::string>& kn
     Facts facts;
     for (const auto& [key, value] : section.items()) {
       if (value.is_primitive() && !value.is_null())
-        facts.emplace_back("  " + words_of(key), value.is_string() ? line_of(value) : value.dump());
+        facts.emplace_back("  " + words_of(key), value.is_string() ? line_of(value) : compact_json(value));
     }
     text += fmt::format("\n{}\n{}", words_of(name), facts_text(facts));
   }

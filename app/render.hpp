@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/json_text.hpp"
 #include "app/text.hpp"
+#include "base/json.hpp"
 
 // The pieces of the texts of all commands: each text is rendered from the document that --json prints.
 namespace coordreq {

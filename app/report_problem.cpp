@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/json_text.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
+#include "base/json.hpp"
 #include "export/report_page.hpp"
 #include "spec/names_behind.hpp"
 #include "spec/problem_spec.hpp"
@@ -92,7 +92,7 @@ std::set<std::string> names_of_safety(const ProblemSpec& spec) {
 /// that these mention in turn. @param said names that are left out, with the names that they mention
 std::string meanings(const ProblemSpec& spec, const std::set<std::string>& names,
                      const std::set<std::string>& said) {
-  const Json text = Json::parse(spec.text, nullptr, true, true);
+  const Json text = parse_json(spec.text, JsonComments::skipped);
   const std::set<std::string> used = with_names_behind(text, names);
   const std::set<std::string> before = with_names_behind(text, said);
   std::string html;
@@ -100,7 +100,7 @@ std::string meanings(const ProblemSpec& spec, const std::set<std::string>& names
     if (!text.contains(key)) continue;
     for (const auto& [name, value] : text.at(key).items()) {
       if (!used.contains(name) || before.contains(name)) continue;
-      const std::string meant = value.is_string() ? value.get<std::string>() : value.dump();
+      const std::string meant = value.is_string() ? value.get<std::string>() : compact_json(value);
       html += fmt::format("{}{}", html.empty() ? "" : ", ", html_code(name + " = " + meant));
     }
   }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "export/tolerance_frontier.hpp"
 #include "results/results_reader.hpp"
 

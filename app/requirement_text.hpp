@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/json_text.hpp"
+#include "base/json.hpp"
 #include "spec/spec_types.hpp"
 
 // A requirement in words, from what requirement_json() says of it: `own` in all that follows. `analyze`,

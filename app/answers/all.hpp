@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/json_text.hpp"
 #include "app/render.hpp"
+#include "base/json.hpp"
 #include "results/results_reader.hpp"
 #include "spec/spec_types.hpp"
 

@@ -7,6 +7,7 @@
 #include "app/commands/all.hpp"
 #include "app/print_answer.hpp"
 #include "app/render.hpp"
+#include "base/json.hpp"
 #include "results/read_info.hpp"
 
 namespace coordreq {
@@ -49,12 +50,12 @@ std::string axes_text(const Json& info) {
 
 std::string described_partitions(const Json& partitions) {
   return table_text(
-      partitions, {{"partition", Align::left, [](const Json& entry) { return line_of(entry["name"]); }},
-                   {"F", Align::right,
-                    [](const Json& entry) { return entry["truncated"] ? "not reached" : entry["F"].dump(); }},
-                   {"layers", Align::left, [](const Json& entry) {
-                      return shortened(entry["layers"].get<std::vector<std::int64_t>>());
-                    }}});
+      partitions,
+      {{"partition", Align::left, [](const Json& entry) { return line_of(entry["name"]); }},
+       {"F", Align::right,
+        [](const Json& entry) { return entry["truncated"] ? "not reached" : compact_json(entry["F"]); }},
+       {"layers", Align::left,
+        [](const Json& entry) { return shortened(entry["layers"].get<std::vector<std::int64_t>>()); }}});
 }
 
 std::string info_text(const Json& info) {

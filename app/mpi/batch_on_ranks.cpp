@@ -9,6 +9,7 @@
 
 #include "app/interrupt.hpp"
 #include "app/mpi/text_messages.hpp"
+#include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/spec_place.hpp"
 
@@ -18,11 +19,11 @@ namespace {
 constexpr std::chrono::milliseconds kPause{1};
 
 Bytes message_of(const Json& json) {
-  return bytes_of(json.dump());
+  return bytes_of(compact_json(json));
 }
 
 Json json_of(const Bytes& message) {
-  return Json::parse(text_of(message));
+  return parse_json(text_of(message));
 }
 
 Json request_of(const PlannedRun& run) {

@@ -9,8 +9,8 @@
 #include "analysis/blocked_pairs.hpp"
 #include "analysis/motion.hpp"
 #include "base/grouped.hpp"
+#include "base/json.hpp"
 #include "base/requires.hpp"
-#include "spec/json_document.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -161,7 +161,7 @@ void advise_on_motion(const AnalysisContext& context, std::size_t i, const Sprea
 }
 
 /// Whether the spec says nothing about a side of one of its states.
-bool is_left_at_default(const nlohmann::json& states, std::size_t state, const char* side) {
+bool is_left_at_default(const Json& states, std::size_t state, const char* side) {
   if (state >= states.size()) return false;
   const auto outside = states[state].find("outside");
   return outside == states[state].end() || (outside->is_object() && !outside->contains(side));
@@ -191,8 +191,8 @@ Warnings advise_on_posts(const AnalysisContext& context, const std::vector<State
   REQUIRES(context.engine && context.hull);
   constexpr std::size_t kLongText = std::size_t{1} << 20;
   const bool is_short = context.spec.text.size() <= kLongText;
-  const JsonDocument document =
-      JsonDocument::parse(is_short ? context.spec.text : R"({"states": []})", "the spec");
+  const Json written =
+      is_short ? parse_json(context.spec.text, JsonComments::skipped) : Json{{"states", Json::array()}};
   const Abstraction& abstraction = *context.abstraction;
   Warnings found;
   std::vector<std::string> blocked;
@@ -203,8 +203,7 @@ Warnings advise_on_posts(const AnalysisContext& context, const std::vector<State
     for (const bool above : {false, true}) {
       const Outside rule = above ? dimension.above : dimension.below;
       if (rule != Outside::unsafe) continue;
-      if (is_left_at_default(document.value()["states"], state, above ? "above" : "below"))
-        sides.push_back(above);
+      if (is_left_at_default(written["states"], state, above ? "above" : "below")) sides.push_back(above);
     }
     if (sides.empty() && !may_move_less_than_a_cell(abstraction.tables[i], i, dimension.count)) continue;
     const Spreads spreads = spreads_of(abstraction.tables[i], i, dimension.count);

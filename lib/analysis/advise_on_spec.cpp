@@ -4,6 +4,7 @@
 #include <set>
 
 #include "analysis/advice.hpp"
+#include "base/json.hpp"
 #include "spec/names_behind.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/scope.hpp"
@@ -113,7 +114,7 @@ Warnings advise_on_spec(const ProblemSpec& spec) {
   Warnings found;
   advise_on_state_grids(spec, found);
   advise_on_input_grids(spec, document.root(), found);
-  advise_on_names(document.root(), Json::parse(spec.text, nullptr, true, true), found);
+  advise_on_names(document.root(), parse_json(spec.text, JsonComments::skipped), found);
   return found;
 }
 

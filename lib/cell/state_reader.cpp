@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "cell/state_text.hpp"
 #include "spec/json_document.hpp"
 #include "spec/wording.hpp"
@@ -38,7 +39,7 @@ std::vector<std::string> csv_fields(std::string_view line, const std::string& wh
 
 std::string StateReader::Extra::text() const {
   if (!is_json) return std::string(trimmed(value));
-  const auto json = nlohmann::json::parse(value);
+  const Json json = parse_json(value);
   if (json.is_null()) return {};
   return json.is_string() ? json.get<std::string>() : value;
 }
@@ -134,7 +135,7 @@ std::vector<Rational> StateReader::json_state() {
     for (const std::string& key : root.keys()) {
       if (state_of(key) < names_.size()) continue;
       extra_names_.push_back(key);
-      extra_.push_back({key, document.value().at(key).dump(), true});
+      extra_.push_back({key, root[key].json(), true});
     }
     std::vector<Rational> state;
     is_given_.clear();

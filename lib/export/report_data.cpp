@@ -6,6 +6,7 @@
 
 #include "answers/invariance/fields.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "base/json.hpp"
 #include "export/report_map_list.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -107,7 +108,7 @@ std::size_t packed_bytes(const Json& sets) {
 /// A '<' cannot end the element that the text stands in.
 std::string text_of(const Json& json) {
   std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : compact_json(json)) {
     if (c == '<') {
       text += "\\u003c";
     } else {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "base/requires.hpp"
 
 namespace coordreq {
@@ -92,7 +93,7 @@ CheckpointWriter::CheckpointWriter(const std::string& path, std::string where, c
     : where_(std::move(where)),
       progress_(std::move(progress)),
       file_(path, std::ios::binary | std::ios::trunc) {
-  put(fmt::format("{}{}\n", kSignature, header.dump()));
+  put(fmt::format("{}{}\n", kSignature, compact_json(header)));
 }
 
 void CheckpointWriter::put(std::string_view bytes) {
@@ -111,12 +112,12 @@ std::string CheckpointWriter::put_digest() {
 void CheckpointWriter::begin(const std::string& section, const Json& more) {
   Json head = more;
   head["section"] = section;
-  put(head.dump() + "\n");
+  put(json_line(head));
 }
 
 void CheckpointWriter::add(const NumberRows& rows) {
   const Json head = {{"type", type_of(rows)}, {"rows", rows.rows}, {"length", rows.row_length}};
-  put(head.dump() + "\n");
+  put(json_line(head));
   const std::int64_t bytes = rows.rows * rows.row_bytes();
   for (std::int64_t at = 0; at < bytes; at += kBlockBytes) {
     const std::int64_t end = std::min(at + kBlockBytes, bytes);
@@ -196,7 +197,7 @@ class CheckpointReader::Scan {
   }
 
   [[nodiscard]] Json object_of(const std::string& line) const {
-    Json json = Json::parse(line, nullptr, false);
+    Json json = parse_json_if_valid(line);
     if (!json.is_object()) fail("a line is none of ours");
     return json;
   }
@@ -245,14 +246,14 @@ CheckpointReader::CheckpointReader(const std::string& path) : path_(path), file_
 }
 
 Json CheckpointReader::header() const {
-  return Json::parse(header_);
+  return parse_json(header_);
 }
 
 Json CheckpointReader::begin(const std::string& section) {
   const auto found = sections_.find(section);
   section_ = found == sections_.end() ? nullptr : &found->second;
   item_ = 0;
-  return section_ == nullptr ? Json() : Json::parse(section_->head);
+  return section_ == nullptr ? Json() : parse_json(section_->head);
 }
 
 bool CheckpointReader::read(const NumberRows& rows) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/plan.hpp"
+#include "base/json.hpp"
 #include "model/outside_word.hpp"
 #include "results/results_reader.hpp"
 #include "spec/problem_spec.hpp"
@@ -65,7 +66,7 @@ Json read_info(const std::string& path, std::optional<std::uint64_t> max_memory)
     if (answer.tell != nullptr) answer.tell(results.spec(), results, info);
   }
   info["datasets"] = results.datasets();
-  info["spec"] = Json::parse(without_comments(results.spec().text));
+  info["spec"] = parse_json(without_comments(results.spec().text));
   return info;
 }
 

@@ -14,17 +14,16 @@
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::size_t kDeepestNesting = 200;
 constexpr std::size_t kLongestKey = 200;
 
 /// Receives the parser's events and builds the document.
-class Builder : public nlohmann::json_sax<Json> {
+class Builder : public nlohmann::json_sax<SortedJson> {
  public:
   using Keys = std::unordered_map<std::string, std::vector<std::string>>;
 
-  Builder(const JsonText& json, Json& root, std::unordered_map<std::string, std::string>& tokens, Keys& keys)
+  Builder(const JsonText& json, SortedJson& root, std::unordered_map<std::string, std::string>& tokens,
+          Keys& keys)
       : json_(json), root_(root), tokens_(tokens), keys_(keys) {}
 
   bool null() override { return add(nullptr); }
@@ -46,9 +45,9 @@ class Builder : public nlohmann::json_sax<Json> {
   }
   bool binary(binary_t& /*value*/) override { return false; }  // JSON text has none
 
-  bool start_object(std::size_t /*count*/) override { return open(Json::object()); }
+  bool start_object(std::size_t /*count*/) override { return open(SortedJson::object()); }
   bool end_object() override { return close(); }
-  bool start_array(std::size_t /*count*/) override { return open(Json::array()); }
+  bool start_array(std::size_t /*count*/) override { return open(SortedJson::array()); }
   bool end_array() override { return close(); }
 
   bool key(string_t& name) override {
@@ -61,7 +60,8 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) override {
+  bool parse_error(std::size_t position, const std::string& token,
+                   const SortedJson::exception& error) override {
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
       json_.fail("number beyond the range of a double: " + quote_text(token), position - token.size());
@@ -72,17 +72,17 @@ class Builder : public nlohmann::json_sax<Json> {
 
  private:
   struct Level {
-    Json* value;
+    SortedJson* value;
     std::string pointer;
   };
 
   /// Puts a value where the document is being written.
-  bool add(Json value) {
+  bool add(SortedJson value) {
     place(std::move(value));
     return true;
   }
 
-  Json* place(Json value) {
+  SortedJson* place(SortedJson value) {
     if (levels_.empty()) {
       last_pointer_.clear();
       root_ = std::move(value);
@@ -95,14 +95,14 @@ class Builder : public nlohmann::json_sax<Json> {
       return &level.value->back();
     }
     last_pointer_ = member_pointer(level.pointer, key_);
-    Json& member = (*level.value)[key_];
+    SortedJson& member = (*level.value)[key_];
     member = std::move(value);
     return &member;
   }
 
-  bool open(Json container) {
+  bool open(SortedJson container) {
     ++opened_;
-    Json* const value = place(std::move(container));
+    SortedJson* const value = place(std::move(container));
     if (levels_.size() == kDeepestNesting) {
       // Not the pointer: that of a deep place would fill a screen.
       json_.fail(fmt::format("nested deeper than {} levels", kDeepestNesting), json_.bracket(opened_));
@@ -117,7 +117,7 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   const JsonText& json_;
-  Json& root_;
+  SortedJson& root_;
   std::unordered_map<std::string, std::string>& tokens_;
   Keys& keys_;
   std::vector<Level> levels_;
@@ -131,15 +131,15 @@ class Builder : public nlohmann::json_sax<Json> {
 JsonDocument JsonDocument::parse(std::string_view text, std::string_view source) {
   const JsonText json{without_byte_order_mark(text), source};
   check_encoding(json);
-  const auto value = std::make_shared<Json>();
+  const auto value = std::make_shared<SortedJson>();
   JsonDocument document;
   document.value_ = value;
   Builder builder(json, *value, document.number_tokens_, document.keys_);
   constexpr bool kStrict = true;
   constexpr bool kIgnoreComments = true;
   // The builder throws on every error, so the result says nothing new.
-  static_cast<void>(Json::sax_parse(json.text.begin(), json.text.end(), &builder, Json::input_format_t::json,
-                                    kStrict, kIgnoreComments));
+  static_cast<void>(SortedJson::sax_parse(json.text.begin(), json.text.end(), &builder,
+                                          SortedJson::input_format_t::json, kStrict, kIgnoreComments));
   return document;
 }
 
@@ -221,6 +221,10 @@ std::string JsonDocument::Node::text_or(const std::string& key, std::string_view
 
 bool JsonDocument::Node::flag(const std::string& key) const {
   return has(key) && (*this)[key].value_->get<bool>();
+}
+
+std::string JsonDocument::Node::json() const {
+  return value_->dump();
 }
 
 std::string JsonDocument::Node::token() const {

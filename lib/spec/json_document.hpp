@@ -2,12 +2,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -26,7 +27,7 @@ class JsonDocument {
   ///   string.
   [[nodiscard]] static JsonDocument parse(std::string_view text, std::string_view source);
 
-  [[nodiscard]] const nlohmann::json& value() const { return *value_; }
+  [[nodiscard]] const SortedJson& value() const { return *value_; }
   [[nodiscard]] Node root() const;
 
   /// Numbers as they were typed, by JSON pointer; integers that the values hold are not among them.
@@ -35,7 +36,7 @@ class JsonDocument {
   }
 
  private:
-  std::shared_ptr<const nlohmann::json> value_;
+  std::shared_ptr<const SortedJson> value_;
   std::unordered_map<std::string, std::string> number_tokens_;
   std::unordered_map<std::string, std::vector<std::string>> keys_;  // of the objects in the outermost one
 };
@@ -43,7 +44,7 @@ class JsonDocument {
 /// A value in the document and where it is.
 class JsonDocument::Node {
  public:
-  Node(const JsonDocument& document, const nlohmann::json& value, std::string pointer)
+  Node(const JsonDocument& document, const SortedJson& value, std::string pointer)
       : document_(&document), value_(&value), pointer_(std::move(pointer)) {}
 
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
@@ -78,10 +79,12 @@ class JsonDocument::Node {
   [[nodiscard]] std::int64_t integer() const;
   /// The number as it was typed. @pre a number
   [[nodiscard]] std::string token() const;
+  /// The value as JSON on one line, keys sorted.
+  [[nodiscard]] std::string json() const;
 
  private:
   const JsonDocument* document_;
-  const nlohmann::json* value_;
+  const SortedJson* value_;
   std::string pointer_;
 };
 

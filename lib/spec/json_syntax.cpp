@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/json.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -19,8 +20,7 @@ bool is_opening_or_comma(std::string_view token) {
 /// Whether no place in a document can have the token.
 bool is_broken(std::string_view token) {
   constexpr std::string_view kPunctuation = "{}[]:,";
-  return !token.empty() && kPunctuation.find(token[0]) == std::string_view::npos &&
-         !nlohmann::json::accept(token);
+  return !token.empty() && kPunctuation.find(token[0]) == std::string_view::npos && !is_json(token);
 }
 
 /// The tokens that may follow those before `start`, in words.

@@ -16,7 +16,7 @@ std::set<std::string> names_in(const std::string& expression) {
   return names;
 }
 
-std::set<std::string> with_names_behind(const nlohmann::ordered_json& spec, std::set<std::string> names) {
+std::set<std::string> with_names_behind(const Json& spec, std::set<std::string> names) {
   std::vector<std::string> open(names.begin(), names.end());
   while (!open.empty()) {
     const std::string name = open.back();

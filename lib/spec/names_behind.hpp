@@ -1,8 +1,9 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <string>
+
+#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -10,7 +11,6 @@ namespace coordreq {
 [[nodiscard]] std::set<std::string> names_in(const std::string& expression);
 
 /// These, and what constants, definitions and memories among them mention in turn. @param spec the document
-[[nodiscard]] std::set<std::string> with_names_behind(const nlohmann::ordered_json& spec,
-                                                      std::set<std::string> names);
+[[nodiscard]] std::set<std::string> with_names_behind(const Json& spec, std::set<std::string> names);
 
 }  // namespace coordreq

@@ -15,9 +15,7 @@
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
-
-bool has_type(const Json& value, const std::string& type) {
+bool has_type(const SortedJson& value, const std::string& type) {
   if (type == "object") return value.is_object();
   if (type == "array") return value.is_array();
   if (type == "string") return value.is_string();
@@ -27,11 +25,11 @@ bool has_type(const Json& value, const std::string& type) {
   return value.is_null();
 }
 
-bool type_matches(const Json& schema, const Json& value) {
+bool type_matches(const SortedJson& schema, const SortedJson& value) {
   const auto type = schema.find("type");
   if (type == schema.end()) return true;
   if (type->is_string()) return has_type(value, *type);
-  return std::any_of(type->begin(), type->end(), [&](const Json& one) { return has_type(value, one); });
+  return std::any_of(type->begin(), type->end(), [&](const SortedJson& one) { return has_type(value, one); });
 }
 
 std::size_t code_points(const std::string& text) {
@@ -50,31 +48,31 @@ bool has_pattern(const std::string& pattern, const std::string& text) {
   return is_match;
 }
 
-bool string_matches(const Json& schema, const std::string& text) {
+bool string_matches(const SortedJson& schema, const std::string& text) {
   const std::size_t length = code_points(text);
   if (schema.contains("minLength") && length < schema["minLength"].get<std::size_t>()) return false;
   if (schema.contains("maxLength") && length > schema["maxLength"].get<std::size_t>()) return false;
   return !schema.contains("pattern") || has_pattern(schema["pattern"].get<std::string>(), text);
 }
 
-bool number_matches(const Json& schema, const Json& value) {
+bool number_matches(const SortedJson& schema, const SortedJson& value) {
   return !(schema.contains("minimum") && value < schema["minimum"]) &&
          !(schema.contains("maximum") && value > schema["maximum"]);
 }
 
-bool size_matches(const Json& schema, std::size_t size) {
+bool size_matches(const SortedJson& schema, std::size_t size) {
   return !(schema.contains("minItems") && size < schema["minItems"].get<std::size_t>()) &&
          !(schema.contains("maxItems") && size > schema["maxItems"].get<std::size_t>());
 }
 
-bool is_listed(const Json& schema, const Json& value) {
+bool is_listed(const SortedJson& schema, const SortedJson& value) {
   if (schema.contains("const") && schema["const"] != value) return false;
   const auto list = schema.find("enum");
   return list == schema.end() || std::find(list->begin(), list->end(), value) != list->end();
 }
 
 /// Everything about the value itself, not about what it contains.
-bool value_matches(const Json& schema, const Json& value) {
+bool value_matches(const SortedJson& schema, const SortedJson& value) {
   return type_matches(schema, value) && is_listed(schema, value) &&
          (!value.is_string() || string_matches(schema, value.get_ref<const std::string&>())) &&
          (!value.is_number() || number_matches(schema, value)) &&
@@ -82,11 +80,11 @@ bool value_matches(const Json& schema, const Json& value) {
 }
 
 /// 'text' for a string, else JSON.
-std::string shown_scalar(const Json& value) {
+std::string shown_scalar(const SortedJson& value) {
   return value.is_string() ? quote_text(value.get_ref<const std::string&>()) : value.dump();
 }
 
-std::string shown(const Json& value) {
+std::string shown(const SortedJson& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return value.empty() ? "an empty list" : fmt::format("a list of {}", value.size());
   return shown_scalar(value);
@@ -99,21 +97,21 @@ std::string type_in_words(const std::string& type) {
   return (type == "object" || type == "integer" ? "an " : "a ") + type;
 }
 
-std::vector<std::string> texts(const Json& list) {
+std::vector<std::string> texts(const SortedJson& list) {
   std::vector<std::string> result;
-  for (const Json& item : list) result.push_back(item.get<std::string>());
+  for (const SortedJson& item : list) result.push_back(item.get<std::string>());
   return result;
 }
 
 /// The kind of value that a schema allows, for "expected ...".
-std::string wanted(const Json& schema) {
+std::string wanted(const SortedJson& schema) {
   if (schema.contains("title")) return schema["title"].get<std::string>();
   if (schema.contains("enum")) return quote_list(texts(schema["enum"]), "or");
   if (schema.contains("const")) return shown_scalar(schema["const"]);
   return type_in_words(schema["type"].get<std::string>());
 }
 
-std::vector<std::string> keys_of(const Json& object) {
+std::vector<std::string> keys_of(const SortedJson& object) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : object.items()) keys.push_back(key);
   return keys;
@@ -122,11 +120,11 @@ std::vector<std::string> keys_of(const Json& object) {
 /// Notes violations while it walks, until there are as many as are wanted.
 class Walk {
  public:
-  Walk(const Json& root, std::size_t most) : root_(root), most_(most) {}
+  Walk(const SortedJson& root, std::size_t most) : root_(root), most_(most) {}
 
-  void value(const Json& schema_or_reference, const Json& value, const std::string& pointer) {
+  void value(const SortedJson& schema_or_reference, const SortedJson& value, const std::string& pointer) {
     if (is_full()) return;
-    const Json& schema = resolve(schema_or_reference);
+    const SortedJson& schema = resolve(schema_or_reference);
     if (schema.contains("anyOf")) return alternatives(schema, value, pointer);
     if (!value_matches(schema, value)) return mismatch(schema, value, pointer);
     if (value.is_object()) return object(schema, value, pointer);
@@ -141,20 +139,20 @@ class Walk {
     if (!is_full()) violations.push_back({std::move(what), pointer});
   }
 
-  const Json& resolve(const Json& schema) const {
+  const SortedJson& resolve(const SortedJson& schema) const {
     if (!schema.contains("$ref")) return schema;
     // All references are "#/...".
-    return root_.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1)));
+    return root_.at(SortedJson::json_pointer(schema["$ref"].get<std::string>().substr(1)));
   }
 
-  void mismatch(const Json& schema, const Json& value, const std::string& pointer) {
+  void mismatch(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     add(fmt::format("expected {}, found {}", wanted(schema), shown(value)), pointer);
   }
 
   /// The alternative of the value's own type is the one the author meant.
-  void alternatives(const Json& schema, const Json& value, const std::string& pointer) {
-    for (const Json& branch : schema["anyOf"]) {
-      const Json& alternative = resolve(branch);
+  void alternatives(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
+    for (const SortedJson& branch : schema["anyOf"]) {
+      const SortedJson& alternative = resolve(branch);
       const bool is_meant =
           alternative.contains("type") ? type_matches(alternative, value) : value_matches(alternative, value);
       if (is_meant) return this->value(alternative, value, pointer);
@@ -162,15 +160,15 @@ class Walk {
     mismatch(schema, value, pointer);
   }
 
-  void array(const Json& schema, const Json& value, const std::string& pointer) {
+  void array(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     if (!schema.contains("items")) return;
-    const Json& items = schema["items"];  // one for all, or one for each
+    const SortedJson& items = schema["items"];  // one for all, or one for each
     for (std::size_t i = 0; i < value.size(); ++i)
       this->value(items.is_array() ? items[i] : items, value[i], pointer + "/" + std::to_string(i));
   }
 
   /// Where a key is not known, the one that it was meant to be is missing: that is not said as well.
-  void object(const Json& schema, const Json& value, const std::string& pointer) {
+  void object(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     const std::size_t before = violations.size();
     unknown_keys(schema, value, pointer);
     key_names(schema, value, pointer);
@@ -179,8 +177,8 @@ class Walk {
     members(schema, value, pointer);
   }
 
-  void unknown_keys(const Json& schema, const Json& value, const std::string& pointer) {
-    const Json closed = false;
+  void unknown_keys(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
+    const SortedJson closed = false;
     if (!schema.contains("additionalProperties") || schema["additionalProperties"] != closed) return;
     const std::vector<std::string> known = keys_of(schema["properties"]);
     for (const auto& [key, member] : value.items()) {
@@ -191,9 +189,9 @@ class Walk {
     }
   }
 
-  void key_names(const Json& schema, const Json& value, const std::string& pointer) {
+  void key_names(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     if (!schema.contains("propertyNames")) return;
-    const Json& names = resolve(schema["propertyNames"]);
+    const SortedJson& names = resolve(schema["propertyNames"]);
     for (const auto& [key, member] : value.items()) {
       if (string_matches(names, key)) continue;
       add(fmt::format("expected {}, found the key {}", wanted(names), quote_text(key)), pointer);
@@ -201,13 +199,13 @@ class Walk {
   }
 
   /// The values of a key, if they are a few words.
-  [[nodiscard]] std::string choices(const Json& schema, const std::string& key) const {
+  [[nodiscard]] std::string choices(const SortedJson& schema, const std::string& key) const {
     if (!schema.contains("properties") || !schema["properties"].contains(key)) return "";
-    const Json& entry = resolve(schema["properties"][key]);
+    const SortedJson& entry = resolve(schema["properties"][key]);
     return entry.contains("enum") ? ", expected " + wanted(entry) : "";
   }
 
-  void missing_keys(const Json& schema, const Json& value, const std::string& pointer) {
+  void missing_keys(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     if (schema.contains("required")) {
       for (const std::string& key : texts(schema["required"])) {
         if (!value.contains(key)) add("missing key " + quote_text(key) + choices(schema, key), pointer);
@@ -223,25 +221,25 @@ class Walk {
   }
 
   /// `oneOf` and `not` are used for keys that exclude each other.
-  void key_combination(const Json& schema, const Json& value, const std::string& pointer) {
+  void key_combination(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     if (schema.contains("not")) excluded_keys(schema["not"], value, pointer);
     if (schema.contains("allOf")) {
-      for (const Json& part : schema["allOf"]) key_combination(part, value, pointer);
+      for (const SortedJson& part : schema["allOf"]) key_combination(part, value, pointer);
     }
     if (schema.contains("oneOf")) choice_of_keys(schema["oneOf"], value, pointer);
   }
 
-  void excluded_keys(const Json& excluded, const Json& value, const std::string& pointer) {
+  void excluded_keys(const SortedJson& excluded, const SortedJson& value, const std::string& pointer) {
     const std::vector<std::string> keys = texts(excluded["required"]);
     const bool has_all =
         std::all_of(keys.begin(), keys.end(), [&](const auto& key) { return value.contains(key); });
     if (has_all) add(fmt::format("{} exclude each other", quote_list(keys, "and")), pointer);
   }
 
-  void choice_of_keys(const Json& branches, const Json& value, const std::string& pointer) {
+  void choice_of_keys(const SortedJson& branches, const SortedJson& value, const std::string& pointer) {
     std::vector<std::string> choices;
     std::vector<std::string> present;
-    for (const Json& branch : branches) {
+    for (const SortedJson& branch : branches) {
       choices.push_back(branch["required"][0].get<std::string>());
       if (value.contains(choices.back())) present.push_back(choices.back());
     }
@@ -249,9 +247,9 @@ class Walk {
     if (present.size() > 1) add(fmt::format("{} exclude each other", quote_list(present, "and")), pointer);
   }
 
-  void members(const Json& schema, const Json& value, const std::string& pointer) {
-    const Json none = Json::object();
-    const Json& properties = schema.contains("properties") ? schema["properties"] : none;
+  void members(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
+    const SortedJson none = SortedJson::object();
+    const SortedJson& properties = schema.contains("properties") ? schema["properties"] : none;
     const auto others = schema.find("additionalProperties");
     for (const auto& [key, member] : value.items()) {
       const bool is_known = properties.contains(key);
@@ -260,21 +258,21 @@ class Walk {
     }
   }
 
-  const Json& root_;
+  const SortedJson& root_;
   std::size_t most_;
 };
 
 }  // namespace
 
-std::vector<SchemaViolation> find_violations(const nlohmann::json& schema, const nlohmann::json& document,
+std::vector<SchemaViolation> find_violations(const SortedJson& schema, const SortedJson& document,
                                              std::size_t most) {
   Walk walk(schema, most);
   walk.value(schema, document, "");
   return walk.violations;
 }
 
-std::vector<SchemaViolation> find_spec_violations(const Json& document, std::size_t most) {
-  return find_violations(Json::parse(spec_schema()), document, most);
+std::vector<SchemaViolation> find_spec_violations(const SortedJson& document, std::size_t most) {
+  return find_violations(SortedJson::parse(spec_schema()), document, most);
 }
 
 }  // namespace coordreq

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -19,10 +20,9 @@ struct SchemaViolation {
 /// Understands the keywords of draft 7 that schema.json uses, and no others; titles say what was expected.
 /// Validators of libraries name the keyword that failed and, for alternatives, everything about every branch;
 /// this names the one thing to mend. That both agree on what is valid is tested.
-[[nodiscard]] std::vector<SchemaViolation> find_violations(const nlohmann::json& schema,
-                                                           const nlohmann::json& document, std::size_t most);
+[[nodiscard]] std::vector<SchemaViolation> find_violations(const SortedJson& schema,
+                                                           const SortedJson& document, std::size_t most);
 /// find_violations() of the schema of specs, spec_schema().
-[[nodiscard]] std::vector<SchemaViolation> find_spec_violations(const nlohmann::json& document,
-                                                                std::size_t most);
+[[nodiscard]] std::vector<SchemaViolation> find_spec_violations(const SortedJson& document, std::size_t most);
 
 }  // namespace coordreq

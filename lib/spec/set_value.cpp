@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "base/requires.hpp"
 #include "numeric/rational.hpp"
 #include "spec/json_document.hpp"
@@ -20,8 +21,7 @@
 namespace coordreq {
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
-using Pointer = OrderedJson::json_pointer;
+using Pointer = Json::json_pointer;
 
 [[noreturn]] void fail(const std::string& what, const std::string& path) {
   throw UsageError(what, one_line(path));
@@ -30,22 +30,21 @@ using Pointer = OrderedJson::json_pointer;
 /// A document in the order of its text, with numbers as typed: one that a double cannot hold becomes a text,
 /// for a spec may have that instead.
 /// @throws SpecError as JsonDocument::parse()
-OrderedJson parsed(const std::string& text, const std::string& source) {
+Json parsed(const std::string& text, const std::string& source) {
   // A copy, since two documents at once take much memory.
   const auto tokens = JsonDocument::parse(text, source).number_tokens();
-  constexpr bool kMayThrow = true, kIgnoreComments = true;
-  OrderedJson json = OrderedJson::parse(without_byte_order_mark(text), nullptr, kMayThrow, kIgnoreComments);
+  Json json = parse_json(without_byte_order_mark(text), JsonComments::skipped);
   for (const auto& [pointer, token] : tokens) {
-    OrderedJson& number = json[Pointer(pointer)];
-    if (parse_decimal(number.dump()) != parse_decimal(token)) number = token;
+    Json& number = json[Pointer(pointer)];
+    if (parse_decimal(compact_json(number)) != parse_decimal(token)) number = token;
   }
   return json;
 }
 
-OrderedJson value_of(const SpecSetting& setting) {
+Json value_of(const SpecSetting& setting) {
   const std::string& value = setting.value;
   if (!is_utf8(value)) fail("expected UTF-8 text as the value", setting.path);
-  if (OrderedJson::accept(value)) return parsed(value, setting.path);
+  if (is_json(value)) return parsed(value, setting.path);
   if (value.find_first_of("{[\"") == 0)
     fail("expected JSON, since it starts like it, found " + quote_text(value), setting.path);
   return value;
@@ -64,7 +63,7 @@ std::vector<std::string> tokens_of(const std::string& path) {
   std::vector<std::string> tokens;
   try {
     for (Pointer pointer(path); !pointer.empty(); pointer.pop_back()) tokens.push_back(pointer.back());
-  } catch (const OrderedJson::parse_error&) {
+  } catch (const Json::parse_error&) {
     throw UsageError("expected '~0' or '~1' where a '~' stands in a JSON pointer, found " + quote_text(path));
   }
   std::reverse(tokens.begin(), tokens.end());
@@ -79,7 +78,7 @@ std::vector<std::string> steps_of(const std::string& path) {
 /// Finds the place of a setting in a spec.
 class PlaceFinder {
  public:
-  PlaceFinder(const OrderedJson& spec, const std::string& path) : path_(path), at_(&spec) {}
+  PlaceFinder(const Json& spec, const std::string& path) : path_(path), at_(&spec) {}
 
   /// Goes down the steps; members that are missing are added where the schema allows them.
   /// @returns keys, and indices of elements that are there
@@ -134,7 +133,7 @@ class PlaceFinder {
     if (error == std::errc() && end == step.data() + step.size() && index < at_->size()) return index;
     std::vector<std::string> names;
     for (index = 0; index < at_->size(); ++index) {
-      const OrderedJson& element = (*at_)[index];
+      const Json& element = (*at_)[index];
       const auto name = element.is_object() ? element.find("name") : element.end();
       if (!element.is_object() || name == element.end() || !name->is_string()) continue;
       if (*name == step) return index;
@@ -151,21 +150,21 @@ class PlaceFinder {
   }
 
   const std::string& path_;
-  const OrderedJson* at_;  ///< nothing where it is not there
+  const Json* at_;  ///< nothing where it is not there
   std::vector<std::string> walked_;
   std::vector<std::string> place_;
 };
 
 /// A step as it is written, of which so many make one of the old ones.
-OrderedJson refined_step(const OrderedJson& step, std::int64_t factor) {
+Json refined_step(const Json& step, std::int64_t factor) {
   if (step.is_string()) return fmt::format("({})/{}", step.get<std::string>(), factor);
-  const std::optional<Rational> value = parse_decimal(step.dump());
+  const std::optional<Rational> value = parse_decimal(compact_json(step));
   if (!value) return step;
   const std::string text = to_text(*value / Rational(mpz_class(static_cast<long>(factor))));
-  return text.find('/') == std::string::npos ? parsed(text, "the step") : OrderedJson(text);
+  return text.find('/') == std::string::npos ? parsed(text, "the step") : Json(text);
 }
 
-bool is_ring(const OrderedJson& state) {
+bool is_ring(const Json& state) {
   const auto outside = state.find("outside");
   if (outside == state.end()) return false;
   return *outside == "periodic" ||
@@ -173,8 +172,8 @@ bool is_ring(const OrderedJson& state) {
 }
 
 /// Divides the step of a state. Values that break the schema stay as they are, for read_spec() to name.
-void refine(OrderedJson& state, std::int64_t factor) {
-  if (!state.is_object() || state.value("discrete", OrderedJson()) == true) return;
+void refine(Json& state, std::int64_t factor) {
+  if (!state.is_object() || state.value("discrete", Json()) == true) return;
   const auto step = state.find("step");
   if (step != state.end() && (step->is_number() || step->is_string())) *step = refined_step(*step, factor);
   const auto count = state.find("count");
@@ -186,7 +185,7 @@ void refine(OrderedJson& state, std::int64_t factor) {
 }  // namespace
 
 std::optional<std::string> pointer_of_setting(const std::string& text, const SpecSetting& setting) {
-  const OrderedJson spec = parsed(text, "the spec");
+  const Json spec = parsed(text, "the spec");
   std::string pointer;
   try {
     for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
@@ -198,25 +197,25 @@ std::optional<std::string> pointer_of_setting(const std::string& text, const Spe
 }
 
 std::string without_comments(const std::string& text) {
-  return parsed(text, "the spec").dump(2) + "\n";
+  return json_text(parsed(text, "the spec"));
 }
 
 std::string with_refinement(const std::string& text, const std::string& source, std::int64_t factor) {
   REQUIRES(1 <= factor && factor <= INT32_MAX);
-  OrderedJson spec = parsed(text, source);
+  Json spec = parsed(text, source);
   if (!spec.is_object() || !spec.contains("states") || !spec["states"].is_array()) return text;
-  for (OrderedJson& state : spec["states"]) refine(state, factor);
-  return spec.dump(2) + "\n";
+  for (Json& state : spec["states"]) refine(state, factor);
+  return json_text(spec);
 }
 
 std::string with_setting(const std::string& text, const std::string& source, const SpecSetting& setting) {
-  OrderedJson spec = parsed(text, source);
-  OrderedJson* at = &spec;
+  Json spec = parsed(text, source);
+  Json* at = &spec;
   // A JSON pointer would make a list of what is not there wherever a step is a number, however large.
   for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
     at = at->is_array() ? &(*at)[std::stoul(step)] : &(*at)[step];
   *at = value_of(setting);
-  return spec.dump(2) + "\n";
+  return json_text(spec);
 }
 
 }  // namespace coordreq

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json.hpp"
 #include "spec/json_document.hpp"
 #include "spec/json_text.hpp"
 #include "spec/problem_spec.hpp"
@@ -12,13 +13,12 @@
 namespace coordreq {
 namespace {
 
-using Pointer = nlohmann::json::json_pointer;
-constexpr bool kIgnoreComments = true;
+using Pointer = Json::json_pointer;
 
 /// Goes through the tokens of a text.
-class Walk {
+class PlaceWalk {
  public:
-  explicit Walk(std::string_view text) : json_{text, ""} { go_to(0); }
+  explicit PlaceWalk(std::string_view text) : json_{text, ""} { go_to(0); }
 
   [[nodiscard]] std::size_t offset() const { return offset_; }
 
@@ -30,7 +30,7 @@ class Walk {
     for (std::size_t index = 0; sign() != '}' && sign() != ']'; ++index) {
       std::string name = std::to_string(index);
       if (open == '{') {
-        name = nlohmann::json::parse(token()).get<std::string>();
+        name = parse_json(token()).get<std::string>();
         step();
         step();  // the colon
       }
@@ -90,12 +90,12 @@ WrittenSpec written_spec(const ProblemSpec& spec) {
 }
 
 std::optional<std::size_t> offset_of_value(std::string_view text, std::string_view pointer) {
-  Walk walk(text);
+  PlaceWalk walk(text);
   try {
     for (const std::string& key : keys_of(pointer)) {
       if (!walk.enter(key)) return std::nullopt;
     }
-  } catch (const nlohmann::json::exception&) {  // a pointer that was shortened for its message
+  } catch (const Json::exception&) {  // a pointer that was shortened for its message
     return std::nullopt;
   }
   return walk.offset();
@@ -107,7 +107,7 @@ std::string with_place(const std::string& error, const WrittenSpec& written) {
   const std::string_view where = std::string_view(error).substr(begin + 2, error.size() - begin - 3);
   const std::string pointer = pointer_in(where);
   // A text that is no JSON has no pointers, but its path may look like one.
-  if (pointer.empty() || !nlohmann::json::accept(written.text, kIgnoreComments)) return error;
+  if (pointer.empty() || !is_json(written.text, JsonComments::skipped)) return error;
   const std::string before = error.substr(0, error.size() - 1);
   if (const SpecSetting* const own = setting_of(written, pointer); own != nullptr)
     return fmt::format("{}; set by {}={})", before, own->path, own->value);

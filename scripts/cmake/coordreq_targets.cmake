@@ -1,8 +1,8 @@
-# coordreq_module(<name> [UNITS <number>] [QUICK <expression>] [SOURCES <file>...] [DEPENDS <target>...]
+# coordreq_module(<name> [UNITS <number> [BY_FOLDER]] [HOT <file>...] [SOURCES <file>...] [DEPENDS <target>...]
 #                 [PRIVATE_DEPENDS <target>...])
-# One library target a room, coordreq_<name>, of all sources in its folder and SOURCES that are generated, in so many units a
-# folder (see coordreq_unite). What matches QUICK is compiled quickly (see coordreq_compile_quickly). Headers are included as "<name>/<file>.hpp". Installed it is coordreq::<name>, and
-# <coordreq/<name>/<file>.hpp> works too.
+# One library target a room, coordreq_<name>, of all sources in its folder and SOURCES that are generated, in so many units
+# (see coordreq_unite). With HOT, only those are compiled for speed (see coordreq_compile_quickly). Headers are included as
+# "<name>/<file>.hpp". Installed it is coordreq::<name>, and <coordreq/<name>/<file>.hpp> works too.
 
 add_library(coordreq_options INTERFACE)
 target_compile_features(coordreq_options INTERFACE cxx_std_20)
@@ -38,10 +38,10 @@ function(coordreq_precompile target)
   target_precompile_headers(${target} REUSE_FROM coordreq_${header})
 endfunction()
 
-# coordreq_unite(<target> [<units> [TOGETHER]]): with COORDREQ_UNITY_BUILD the sources of a folder are compiled as one, so
+# coordreq_unite(<target> [<units> [BY_FOLDER]]): with COORDREQ_UNITY_BUILD the sources of a target are compiled as one, so
 # that they share what they parse and instantiate; those of a large one as so many units, to which they are dealt by their
-# names, so that a new file shifts no others. TOGETHER: the units are those of all folders together, and sources of one name
-# are in the same. All presets but iterate and tidy do so, that names in two files of one room differ everywhere.
+# names, or by those of their folders, so that a new file shifts no others. All presets but iterate and tidy do so, that names
+# in two files of one room differ everywhere.
 function(coordreq_unite target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${COORDREQ_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
   list(APPEND ARGN 1)
@@ -49,15 +49,14 @@ function(coordreq_unite target)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources EXCLUDE REGEX "^\\$<")
   foreach(source ${sources})
-    cmake_path(GET source FILENAME name)
+    set(name ${source})
+    if("BY_FOLDER" IN_LIST ARGN)
+      cmake_path(GET source PARENT_PATH name)
+    endif()
+    cmake_path(GET name FILENAME name)
     string(MD5 digest ${name})
     string(SUBSTRING ${digest} 0 6 digits)
     math(EXPR unit "0x${digits} % ${units}")
-    if(NOT "TOGETHER" IN_LIST ARGN)
-      cmake_path(GET source PARENT_PATH folder)
-      cmake_path(GET folder FILENAME folder)
-      string(PREPEND unit ${folder}_)
-    endif()
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${unit})
   endforeach()
 endfunction()
@@ -70,20 +69,18 @@ function(coordreq_compile_quickly)
 endfunction()
 
 function(coordreq_module name)
-  cmake_parse_arguments(ARG "" "UNITS;QUICK" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "BY_FOLDER" "UNITS" "HOT;SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target coordreq_${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
-  if(ARG_QUICK)
-    set(quick ${sources})
-    list(FILTER quick INCLUDE REGEX "${ARG_QUICK}")
-    list(FILTER sources EXCLUDE REGEX "${ARG_QUICK}")
-    add_library(${target}_quick OBJECT ${quick})
-    target_include_directories(${target}_quick PRIVATE ${PROJECT_SOURCE_DIR}/lib)
-    target_link_libraries(${target}_quick PRIVATE coordreq_options ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
-    coordreq_precompile(${target}_quick)
-    coordreq_unite(${target}_quick 3 TOGETHER)
-    coordreq_compile_quickly(${target}_quick)
-    list(APPEND ARG_SOURCES $<TARGET_OBJECTS:${target}_quick>)
+  if(ARG_HOT)
+    list(TRANSFORM ARG_HOT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    list(REMOVE_ITEM sources ${ARG_HOT})
+    add_library(${target}_hot OBJECT ${ARG_HOT})
+    target_include_directories(${target}_hot PRIVATE ${PROJECT_SOURCE_DIR}/lib)
+    target_link_libraries(${target}_hot PRIVATE coordreq_options ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
+    coordreq_precompile(${target}_hot)
+    coordreq_unite(${target}_hot)
+    list(APPEND ARG_SOURCES $<TARGET_OBJECTS:${target}_hot>)
   endif()
   add_library(${target} STATIC ${sources} ${ARG_SOURCES})
   target_include_directories(${target} PUBLIC
@@ -94,8 +91,14 @@ function(coordreq_module name)
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
                         PRIVATE $<BUILD_INTERFACE:coordreq_options> ${ARG_PRIVATE_DEPENDS})
   coordreq_precompile(${target})
+  if(ARG_BY_FOLDER)
+    list(APPEND ARG_UNITS BY_FOLDER)
+  endif()
   coordreq_unite(${target} ${ARG_UNITS})
   target_compile_features(${target} INTERFACE cxx_std_20)
+  if(ARG_HOT)
+    coordreq_compile_quickly(${target})
+  endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS ${target} EXPORT coordreq-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/json.hpp"
 #include "example_spec.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -10,10 +11,8 @@
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
-
 /// What reading says, of specs of at most 64 KiB.
-std::string outcome(const Json& spec) {
+std::string outcome(const SortedJson& spec) {
   const std::string text = spec.dump();
   EXPECT_LE(text.size(), 65'536U);
   try {
@@ -25,7 +24,7 @@ std::string outcome(const Json& spec) {
 }
 
 std::string outcome_of_constants(const std::string& first, const std::string& others, int count) {
-  Json spec = test::example();
+  SortedJson spec = test::example();
   for (int i = 0; i < count; ++i) spec["constants"]["c" + std::to_string(i)] = i == 0 ? first : others;
   return outcome(spec);
 }
@@ -47,7 +46,7 @@ TEST(HostileSpec, IrrationalFunctionsOfNumbersThatAreNotTooLongAreQuick) {
 }
 
 TEST(HostileSpec, ConstantsThatSquareEachOtherEnd) {
-  Json spec = test::example();
+  SortedJson spec = test::example();
   spec["constants"]["c0"] = "1 + 1e-9";
   for (int i = 1; i < 1500; ++i) {
     const std::string before = "c" + std::to_string(i - 1);
@@ -57,7 +56,7 @@ TEST(HostileSpec, ConstantsThatSquareEachOtherEnd) {
 }
 
 TEST(HostileSpec, DefinitionsThatDoubleStaySmall) {
-  Json spec = test::example();
+  SortedJson spec = test::example();
   spec["definitions"] = {{"d0", "x1"}, {"r2", "x1^2 + x2^2"}};
   for (int i = 1; i < 2000; ++i) {
     const std::string before = "d" + std::to_string(i - 1);
@@ -68,7 +67,7 @@ TEST(HostileSpec, DefinitionsThatDoubleStaySmall) {
 }
 
 TEST(HostileSpec, ManyValuesOfManyDigitsAreRefused) {
-  const Json long_step = {{"name", "u1"}, {"lower", 0}, {"upper", 1048574}, {"step", "1 + 1e-500"}};
+  const SortedJson long_step = {{"name", "u1"}, {"lower", 0}, {"upper", 1048574}, {"step", "1 + 1e-500"}};
   EXPECT_EQ(outcome(test::example_with("/inputs/0", long_step.dump())),
             "3485459976 bits of 1048574 values of one input, at most 268435456 are possible (/inputs/0)");
 }
@@ -76,14 +75,14 @@ TEST(HostileSpec, ManyValuesOfManyDigitsAreRefused) {
 TEST(HostileSpec, OperationsOfLongNumbersEnd) {
   std::string product = "x1 < 1e-4999";
   for (int i = 0; i < 3000; ++i) product += "*(1+1e-4999)^6";
-  EXPECT_EQ(outcome(test::example_with("/safe", Json(product).dump())), "");
+  EXPECT_EQ(outcome(test::example_with("/safe", SortedJson(product).dump())), "");
   std::string sum = "x1 < 0";
   for (int i = 0; i < 4000; ++i) sum += "+1e-" + std::to_string(4999 - i);
-  EXPECT_EQ(outcome(test::example_with("/safe", Json(sum).dump())), "");
+  EXPECT_EQ(outcome(test::example_with("/safe", SortedJson(sum).dump())), "");
 }
 
 TEST(HostileSpec, ManyOfEverythingIsReadOrRefused) {
-  Json spec = test::example();
+  SortedJson spec = test::example();
   for (int i = 0; i < 3000; ++i) spec["constants"]["c" + std::to_string(i)] = 1;
   spec["safe"] = "ccccc < 1";
   EXPECT_EQ(outcome(spec), "'ccccc' is not defined (/safe, column 1)");

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "base/json.hpp"
 #include "maximal_spec.hpp"
 
 /// Specs with a few things wrong in them. For use inside of rc::check().
 namespace coordreq::test::mutation {
 
-using Json = nlohmann::json;
-
-inline void collect(const Json& value, const Json::json_pointer& pointer,
-                    std::vector<Json::json_pointer>& all) {
+inline void collect(const SortedJson& value, const SortedJson::json_pointer& pointer,
+                    std::vector<SortedJson::json_pointer>& all) {
   if (!pointer.empty()) all.push_back(pointer);
   if (value.is_object()) {
     for (const auto& [key, member] : value.items()) collect(member, pointer / key, all);
@@ -23,8 +22,8 @@ inline void collect(const Json& value, const Json::json_pointer& pointer,
   }
 }
 
-inline void remove(Json& document, const Json::json_pointer& pointer) {
-  Json& parent = document.at(pointer.parent_pointer());
+inline void remove(SortedJson& document, const SortedJson::json_pointer& pointer) {
+  SortedJson& parent = document.at(pointer.parent_pointer());
   if (parent.is_array()) {
     parent.erase(std::stoul(pointer.back()));
   } else {
@@ -32,10 +31,10 @@ inline void remove(Json& document, const Json::json_pointer& pointer) {
   }
 }
 
-inline void rename(Json& document, const Json::json_pointer& pointer) {
-  Json& parent = document.at(pointer.parent_pointer());
+inline void rename(SortedJson& document, const SortedJson::json_pointer& pointer) {
+  SortedJson& parent = document.at(pointer.parent_pointer());
   if (!parent.is_object()) return;
-  Json value = parent[pointer.back()];
+  SortedJson value = parent[pointer.back()];
   parent.erase(pointer.back());
   std::string name = pointer.back();
   name[*rc::gen::inRange<std::size_t>(0, name.size())] = *rc::gen::inRange('!', '~');
@@ -43,7 +42,8 @@ inline void rename(Json& document, const Json::json_pointer& pointer) {
 }
 
 /// What a slip of the hand or a wrong idea of the format could put there.
-inline Json other_value(const Json& document, const std::vector<Json::json_pointer>& nodes) {
+inline SortedJson other_value(const SortedJson& document,
+                              const std::vector<SortedJson::json_pointer>& nodes) {
   const std::vector<std::string> values{"null",
                                         "true",
                                         "false",
@@ -72,21 +72,21 @@ inline Json other_value(const Json& document, const std::vector<Json::json_point
                                         "\"\\u00e9\\n\"",
                                         "\"2^(2^70)\""};
   if (*rc::gen::inRange(0, 4) == 0) return document.at(*rc::gen::elementOf(nodes));
-  return Json::parse(*rc::gen::elementOf(values));
+  return SortedJson::parse(*rc::gen::elementOf(values));
 }
 
 /// Changes, drops or renames one thing.
-inline void mutate(Json& document) {
-  std::vector<Json::json_pointer> nodes;
-  collect(document, Json::json_pointer(), nodes);
-  const Json::json_pointer pointer = *rc::gen::elementOf(nodes);
+inline void mutate(SortedJson& document) {
+  std::vector<SortedJson::json_pointer> nodes;
+  collect(document, SortedJson::json_pointer(), nodes);
+  const SortedJson::json_pointer pointer = *rc::gen::elementOf(nodes);
   switch (*rc::gen::inRange(0, 4)) {
     case 0:
       return remove(document, pointer);
     case 1:
       return rename(document, pointer);
     default: {
-      const Json value = other_value(document, nodes);
+      const SortedJson value = other_value(document, nodes);
       document.at(pointer) = value;
     }
   }

@@ -6,6 +6,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "base/json.hpp"
 #include "mutated_spec.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/schema_violation.hpp"
@@ -13,16 +14,14 @@
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
-
 /// What a validator that knows nothing of this program makes of the schema.
 class OtherJudge {
  public:
-  explicit OtherJudge(const Json& schema) {
+  explicit OtherJudge(const SortedJson& schema) {
     valijson::SchemaParser parser;
     parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), schema_);
   }
-  [[nodiscard]] bool accepts(const Json& document) const {
+  [[nodiscard]] bool accepts(const SortedJson& document) const {
     return valijson::Validator().validate(schema_, valijson::adapters::NlohmannJsonAdapter(document),
                                           nullptr);
   }
@@ -32,11 +31,11 @@ class OtherJudge {
 };
 
 TEST(SchemaViolation, IsFoundWhereAnotherValidatorFindsOne) {
-  const Json schema = Json::parse(spec_schema());
+  const SortedJson schema = SortedJson::parse(spec_schema());
   const OtherJudge other(schema);
-  EXPECT_TRUE(other.accepts(Json::parse(test::kMaximalSpec, nullptr, true, true)));
+  EXPECT_TRUE(other.accepts(SortedJson::parse(test::kMaximalSpec, nullptr, true, true)));
   EXPECT_TRUE(rc::check("both judge alike", [&] {
-    const Json document = test::mutated_spec();
+    const SortedJson document = test::mutated_spec();
     RC_LOG() << document.dump();
     const bool is_valid = other.accepts(document);
     RC_CLASSIFY(is_valid, "valid");

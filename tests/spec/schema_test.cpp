@@ -3,12 +3,11 @@
 #include <set>
 #include <string>
 
+#include "base/json.hpp"
 #include "example_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-using Json = nlohmann::json;
 
 /// The keywords that error messages know about; another one would fail without a word.
 const std::set<std::string> kKeywords{"$ref",          "$schema",      "additionalProperties",
@@ -21,16 +20,16 @@ const std::set<std::string> kKeywords{"$ref",          "$schema",      "addition
                                       "propertyNames", "required",     "title",
                                       "type"};
 
-void check_schema_object(const Json& schema, const std::string& place);
+void check_schema_object(const SortedJson& schema, const std::string& place);
 
-void check_members(const Json& object, const std::string& place, bool need_description) {
+void check_members(const SortedJson& object, const std::string& place, bool need_description) {
   for (const auto& [key, member] : object.items()) {
     EXPECT_TRUE(!need_description || member.contains("description")) << place << "/" << key;
     check_schema_object(member, place + "/" + key);
   }
 }
 
-void check_schema_object(const Json& schema, const std::string& place) {
+void check_schema_object(const SortedJson& schema, const std::string& place) {
   if (!schema.is_object()) return;
   for (const auto& [keyword, value] : schema.items()) {
     const std::string where = place + "/" + keyword;
@@ -40,27 +39,27 @@ void check_schema_object(const Json& schema, const std::string& place) {
     } else if (keyword == "items" || keyword == "additionalProperties" || keyword == "propertyNames") {
       check_schema_object(value, where);
     } else if (keyword == "anyOf") {
-      for (const Json& branch : value) check_schema_object(branch, where);
+      for (const SortedJson& branch : value) check_schema_object(branch, where);
     }
   }
-  if (schema.value("type", Json()) == "object") {
+  if (schema.value("type", SortedJson()) == "object") {
     EXPECT_TRUE(schema.contains("additionalProperties")) << place;
   }
 }
 
 TEST(Schema, IsDraft7AndSelfDescribing) {
-  const Json schema = Json::parse(spec_schema());
+  const SortedJson schema = SortedJson::parse(spec_schema());
   EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-07/schema#");
   EXPECT_EQ(spec_schema().back(), '\n');
   check_schema_object(schema, "");
 }
 
 TEST(Schema, EveryReferenceResolves) {
-  const Json schema = Json::parse(spec_schema());
-  const Json flat = schema.flatten();
+  const SortedJson schema = SortedJson::parse(spec_schema());
+  const SortedJson flat = schema.flatten();
   for (const auto& [pointer, value] : flat.items()) {
     if (pointer.size() < 5 || pointer.substr(pointer.size() - 5) != "/$ref") continue;
-    EXPECT_TRUE(schema.contains(Json::json_pointer(value.get<std::string>().substr(1)))) << value;
+    EXPECT_TRUE(schema.contains(SortedJson::json_pointer(value.get<std::string>().substr(1)))) << value;
   }
 }
 

@@ -1,4 +1,5 @@
 #include "spec/set_value.hpp"
+#include "base/json.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,8 +14,6 @@
 
 namespace coordreq {
 namespace {
-
-using Json = nlohmann::json;
 
 std::string set(const std::string& text, const std::string& path, const std::string& value) {
   return with_setting(text, "test", {path, value});
@@ -35,19 +34,19 @@ constexpr const char* kText = R"({ // the head
 } // end )";
 
 TEST(SetValue, OnlyTheValueChanges) {
-  Json expected = Json::parse(kText, nullptr, true, true);
+  SortedJson expected = SortedJson::parse(kText, nullptr, true, true);
   expected["constants"]["R"] = 0.7;
-  EXPECT_EQ(Json::parse(set(kText, "constants.R", "0.7")), expected);
+  EXPECT_EQ(SortedJson::parse(set(kText, "constants.R", "0.7")), expected);
   EXPECT_EQ(set(R"({"b": 1, "a": [2.50]})", "b", "3"), "{\n  \"b\": 3,\n  \"a\": [\n    2.5\n  ]\n}\n");
 }
 
 TEST(Refinement, DividesStepsAndKeepsAllPoints) {
-  const Json refined = Json::parse(with_refinement(R"({"states": [
+  const SortedJson refined = SortedJson::parse(with_refinement(R"({"states": [
       {"step": 0.01, "origin": 0.3}, {"step": 1, "discrete": true}, {"step": "R/4"}, {"step": 2},
       {"count": 24, "outside": "periodic"}, {"count": 7, "outside": {"below": "periodic", "above": "periodic"}},
       {"count": 5, "outside": "safe"}, {"count": 5}], "inputs": [{"step": 1}]})",
-                                                   "test", 2));
-  EXPECT_EQ(refined["states"], Json::parse(R"([
+                                                               "test", 2));
+  EXPECT_EQ(refined["states"], SortedJson::parse(R"([
       {"step": 0.005, "origin": 0.3}, {"step": 1, "discrete": true}, {"step": "(R/4)/2"}, {"step": 1},
       {"count": 48, "outside": "periodic"}, {"count": 14, "outside": {"below": "periodic", "above": "periodic"}},
       {"count": 9, "outside": "safe"}, {"count": 9}])"));
@@ -56,7 +55,7 @@ TEST(Refinement, DividesStepsAndKeepsAllPoints) {
 
 TEST(Refinement, IsExact) {
   const auto step = [](const std::string& old, std::int64_t factor) {
-    return Json::parse(
+    return SortedJson::parse(
         with_refinement(R"({"states": [{"step": )" + old + "}]}", "test", factor))["states"][0]["step"];
   };
   EXPECT_EQ(step("0.1", 3), "1/30");
@@ -69,24 +68,24 @@ TEST(Refinement, LeavesWhatIsWrongToTheReader) {
        {R"({"states": 3})", R"([])",
         R"({"states": [1, {"step": true, "count": "x", "outside": {"below": 3}}]})",
         R"({"states": [{"count": -3}, {"count": 1.5}, {"count": 9223372036854775807}]})"})
-    EXPECT_EQ(Json::parse(with_refinement(text, "test", 2)), Json::parse(text)) << text;
+    EXPECT_EQ(SortedJson::parse(with_refinement(text, "test", 2)), SortedJson::parse(text)) << text;
 }
 
 TEST(SetValue, ElementsGoByNumberOrName) {
-  const Json by_number = Json::parse(set(kText, "states.1.step", "3"), nullptr, true, true);
+  const SortedJson by_number = SortedJson::parse(set(kText, "states.1.step", "3"), nullptr, true, true);
   EXPECT_EQ(by_number["states"][1]["step"], 3);
   EXPECT_EQ(set(kText, "states.x2.step", "3"), set(kText, "states.1.step", "3"));
   EXPECT_EQ(set(kText, "/states/1/step", "3"), set(kText, "states.1.step", "3"));
 }
 
 TEST(SetValue, PointersReachKeysWithDots) {
-  const Json json = Json::parse(set(kText, "/dots/a.b/1/0", "5"), nullptr, true, true);
-  EXPECT_EQ(json["dots"]["a.b"], Json::parse("[1, [5, {}]]"));
+  const SortedJson json = SortedJson::parse(set(kText, "/dots/a.b/1/0", "5"), nullptr, true, true);
+  EXPECT_EQ(json["dots"]["a.b"], SortedJson::parse("[1, [5, {}]]"));
 }
 
 TEST(SetValue, JsonIsTakenAsJsonAndTheRestAsText) {
   const auto value = [](const std::string& typed) {
-    return Json::parse(set(kText, "name", typed), nullptr, true, true)["name"].dump();
+    return SortedJson::parse(set(kText, "name", typed), nullptr, true, true)["name"].dump();
   };
   EXPECT_EQ(value("0.5"), "0.5");
   EXPECT_EQ(value("true"), "true");
@@ -99,21 +98,22 @@ TEST(SetValue, JsonIsTakenAsJsonAndTheRestAsText) {
 
 TEST(SetValue, NumbersKeepTheirDigits) {
   const char* const kMany = "0.10000000000000000000001";
-  const Json set_there = Json::parse(set(kText, "constants.R", kMany));
+  const SortedJson set_there = SortedJson::parse(set(kText, "constants.R", kMany));
   EXPECT_EQ(set_there["constants"]["R"], kMany);
-  const Json was_there = Json::parse(
+  const SortedJson was_there = SortedJson::parse(
       set(fmt::format(R"({{"a": {}, "b": 12345678901234567890123, "c": 0.1}})", kMany), "d", "1"));
-  EXPECT_EQ(was_there, (Json{{"a", kMany}, {"b", "12345678901234567890123"}, {"c", 0.1}, {"d", 1}}));
+  EXPECT_EQ(was_there, (SortedJson{{"a", kMany}, {"b", "12345678901234567890123"}, {"c", 0.1}, {"d", 1}}));
 }
 
 TEST(SetValue, WhatIsMissingIsNoList) {
-  EXPECT_EQ(Json::parse(set("{}", "a.4000000000", "1")), Json::parse(R"({"a": {"4000000000": 1}})"));
-  EXPECT_EQ(Json::parse(set("{}", "//", "1")), Json::parse(R"({"": {"": 1}})"));
+  EXPECT_EQ(SortedJson::parse(set("{}", "a.4000000000", "1")),
+            SortedJson::parse(R"({"a": {"4000000000": 1}})"));
+  EXPECT_EQ(SortedJson::parse(set("{}", "//", "1")), SortedJson::parse(R"({"": {"": 1}})"));
 }
 
 TEST(SetValue, MissingKeysAreAdded) {
   const auto after = [](const char* text, const char* path, const char* value) {
-    return Json::parse(set(text, path, value)).dump();
+    return SortedJson::parse(set(text, path, value)).dump();
   };
   EXPECT_EQ(after(R"({"a": {}})", "a.b", "1"), R"({"a":{"b":1}})");
   EXPECT_EQ(after("{\"a\": 1 // one\n}", "b", "2"), R"({"a":1,"b":2})");
@@ -140,7 +140,7 @@ TEST(SetValue, ConstantsAreNotAdded) {
             "'r' is not one of the definitions: there are none (definitions.r)");
   EXPECT_EQ(error_of("{}", "constants.q", "1"),
             "'q' is not one of the constants: there are none (constants.q)");
-  EXPECT_EQ(Json::parse(set("{}", "constants", R"({"q": 1})")).dump(), R"({"constants":{"q":1}})");
+  EXPECT_EQ(SortedJson::parse(set("{}", "constants", R"({"q": 1})")).dump(), R"({"constants":{"q":1}})");
 }
 
 TEST(SetValue, BrokenPathsAndValuesAreErrors) {
@@ -160,14 +160,14 @@ TEST(SetValue, BrokenSpecsAreTheirOwnErrors) {
 }
 
 /// A random value, at most `depth` levels deep.
-Json any_json(int depth) {
+SortedJson any_json(int depth) {
   const int kind = *rc::gen::inRange(0, depth == 0 ? 4 : 6);
   if (kind == 0) return *rc::gen::arbitrary<int>();
   if (kind == 1)
     return *rc::gen::elementOf(std::vector<std::string>{"", "a\"b", "\\", "// no", "/* } */", "]"});
   if (kind == 2) return *rc::gen::arbitrary<bool>();
   if (kind == 3) return nullptr;
-  Json json = kind == 4 ? Json::array() : Json::object();
+  SortedJson json = kind == 4 ? SortedJson::array() : SortedJson::object();
   for (int i = *rc::gen::inRange(0, 4); i > 0; --i) {
     if (kind == 4) {
       json.push_back(any_json(depth - 1));
@@ -180,7 +180,7 @@ Json any_json(int depth) {
 }
 
 /// The JSON text with a comment at each place where there may be one and no string is around.
-std::string with_comments(const Json& json) {
+std::string with_comments(const SortedJson& json) {
   std::string result;
   bool quoted = false;
   const std::string text = json.dump();
@@ -197,15 +197,15 @@ std::string with_comments(const Json& json) {
 }
 
 RC_GTEST_PROP(SetValue, IsWhatThePointerOfTheDocumentSets, ()) {
-  const Json json = Json{{"a", any_json(3)}, {"b", any_json(2)}};
-  const Json flat = json.flatten();
+  const SortedJson json = SortedJson{{"a", any_json(3)}, {"b", any_json(2)}};
+  const SortedJson flat = json.flatten();
   std::vector<std::string> pointers = {"/a", "/b"};
   for (const auto& [pointer, value] : flat.items()) pointers.push_back(pointer);
   const std::string pointer = *rc::gen::elementOf(pointers);
-  const Json value = any_json(1);
+  const SortedJson value = any_json(1);
 
-  Json expected = json;
-  expected[Json::json_pointer(pointer)] = value;
+  SortedJson expected = json;
+  expected[SortedJson::json_pointer(pointer)] = value;
   const std::string text = set(with_comments(json), pointer, value.dump());
   RC_ASSERT(JsonDocument::parse(text, "test").value() == expected);
 }

@@ -74,9 +74,9 @@ struct Losses {
   std::vector<Word> cells;  ///< the cells left in each row
 };
 
-class Iteration {
+class SafetyIteration {
  public:
-  Iteration(const NetworkProblem& problem, const NetworkWatch& watch, ThreadTeam& team)
+  SafetyIteration(const NetworkProblem& problem, const NetworkWatch& watch, ThreadTeam& team)
       : engine_(*problem.controller->engine),
         modes_(problem.modes),
         watch_(watch),
@@ -238,7 +238,7 @@ class Iteration {
 
 NetworkSafety find_network_safety(const NetworkProblem& problem, const NetworkWatch& watch,
                                   ThreadTeam& team) {
-  Iteration iteration(problem, watch, team);
+  SafetyIteration iteration(problem, watch, team);
   problem.resynthesise ? iteration.run_synchronously() : iteration.run_in_any_order();
   return iteration.result();
 }

@@ -15,7 +15,8 @@
 namespace coordreq {
 namespace {
 
-using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // (of the value, collision time, number)
+using DefinedRank =
+    std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // (of the value, collision time, number)
 
 /// The rank of a value, the lower the worse: not safe, not invariant, no way to the goal, then delays
 /// ascending, or arrivals descending.
@@ -31,7 +32,7 @@ struct Bounds {
   std::uint64_t sure = 0, possible = 0;
   std::uint64_t sure_failing = 0, possible_failing = 0;
   std::uint64_t doubted_failing = 0;  ///< not counted, but not shown not to meet the region
-  Rank sure_worst{INT64_MAX, kForever, INT64_MAX};
+  DefinedRank sure_worst{INT64_MAX, kForever, INT64_MAX};
   std::int64_t sure_least = INT64_MAX, possible_least = INT64_MAX;  ///< ranks
 
   void add(const Bounds& other) {
@@ -166,7 +167,7 @@ class RequirementChecker {
     if (region_.of(cell) < Meeting::perhaps) wrong("the counterexample begins outside the region");
     if (!fails(value)) wrong("the counterexample begins in a cell that does not fail");
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
-    if (Rank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
+    if (DefinedRank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
     check_seen(path, value);
     PathChecker(context_, asked_).check(path, tally_);

@@ -50,7 +50,7 @@ class BoxJudge {
 };
 
 /// The values of a state while another one is outside; an end is nothing if the state is unbounded there.
-struct Extent {
+struct PlainExtent {
   std::optional<Rational> lower, upper;
 
   [[nodiscard]] Interval rough() const {
@@ -72,10 +72,10 @@ class CompactSearch {
   explicit CompactSearch(const Program& where)
       : rough_(where), exact_(where), variables_(where.variables()) {}
 
-  [[nodiscard]] bool is_empty(const std::vector<Extent>& box) {
+  [[nodiscard]] bool is_empty(const std::vector<PlainExtent>& box) {
     boxes_left_ = kMostBoxes;
     std::vector<Interval> compact;
-    for (const Extent& extent : box) {
+    for (const PlainExtent& extent : box) {
       const Interval range = extent.rough();
       compact.push_back({to_compact(range.lower), to_compact(range.upper)});
     }
@@ -90,10 +90,10 @@ class CompactSearch {
   }
   static double from_compact(double t) { return t / (1.0 - std::abs(t)); }
 
-  [[nodiscard]] Truth judge(const std::vector<Extent>& box) {
+  [[nodiscard]] Truth judge(const std::vector<PlainExtent>& box) {
     std::vector<Interval> rough;
     std::vector<RationalInterval> exact;
-    for (const Extent& extent : box) {
+    for (const PlainExtent& extent : box) {
       rough.push_back(extent.rough());
       exact.push_back(extent.exact());
     }
@@ -101,7 +101,7 @@ class CompactSearch {
     return truth == Truth::undecided ? exact_.condition(exact) : truth;
   }
 
-  bool visit(std::vector<Extent> box, std::vector<Interval> compact, std::size_t depth) {
+  bool visit(std::vector<PlainExtent> box, std::vector<Interval> compact, std::size_t depth) {
     const Truth truth = judge(box);
     if (truth != Truth::undecided) return truth == Truth::no;
     if (--boxes_left_ <= 0 || variables_.empty()) return false;
@@ -112,7 +112,7 @@ class CompactSearch {
     const Interval compact_range = compact[slot];
     if (!(range.lower < cut && cut < range.upper))
       return range.is_point() && visit_others(box, compact, depth);
-    const Extent whole = box[slot];
+    const PlainExtent whole = box[slot];
     box[slot].upper = exact(cut);
     compact[slot].upper = middle;
     if (!visit(box, compact, depth + 1)) return false;
@@ -122,7 +122,8 @@ class CompactSearch {
   }
 
   /// Goes to the next variable if this one is a point, which cannot be halved.
-  bool visit_others(const std::vector<Extent>& box, const std::vector<Interval>& compact, std::size_t depth) {
+  bool visit_others(const std::vector<PlainExtent>& box, const std::vector<Interval>& compact,
+                    std::size_t depth) {
     const bool all_points = std::all_of(variables_.begin(), variables_.end(),
                                         [&box](std::uint32_t slot) { return box[slot].rough().is_point(); });
     return !all_points && visit(box, compact, depth + 1);
@@ -138,16 +139,16 @@ bool ends_at_limit(Outside side) {
   return side == Outside::saturate || side == Outside::stop || side == Outside::periodic;
 }
 
-Extent extent_of(const GridDimension& dimension) {
+PlainExtent extent_of(const GridDimension& dimension) {
   if (dimension.periodic()) return {dimension.lower, dimension.upper};
-  Extent extent;
+  PlainExtent extent;
   if (ends_at_limit(dimension.below)) extent.lower = parts_of(dimension, 0).front().lower;
   if (ends_at_limit(dimension.above)) extent.upper = parts_of(dimension, dimension.count - 1).back().upper;
   return extent;
 }
 
 /// The values that may be measured beyond a side, its end included.
-Extent outside_of(const GridDimension& dimension, bool above) {
+PlainExtent outside_of(const GridDimension& dimension, bool above) {
   const Rational last = dimension.point(above ? dimension.count - 1 : 0);
   Rational reach = dimension.radius() - dimension.measurement_error;
   if (dimension.discrete && dimension.measurement_error == 0) reach = dimension.step;
@@ -156,7 +157,7 @@ Extent outside_of(const GridDimension& dimension, bool above) {
 }
 
 /// A few values of an extent: its ends, values next to them, and values far away.
-std::vector<Rational> samples_of(const Extent& extent, const GridDimension& dimension) {
+std::vector<Rational> samples_of(const PlainExtent& extent, const GridDimension& dimension) {
   std::vector<Rational> samples;
   const Rational first = extent.lower ? *extent.lower : dimension.point(0);
   const Rational last = extent.upper ? *extent.upper : dimension.point(dimension.count - 1);
@@ -169,14 +170,15 @@ std::vector<Rational> samples_of(const Extent& extent, const GridDimension& dime
 }
 
 /// Keeps the values inside an extent; of a discrete state only its multiples of the step.
-void keep_inside(std::vector<Rational>& samples, const Extent& extent) {
+void keep_inside(std::vector<Rational>& samples, const PlainExtent& extent) {
   std::erase_if(samples, [&extent](const Rational& value) {
     return (extent.lower && value < *extent.lower) || (extent.upper && value > *extent.upper);
   });
 }
 
 /// Whether the region holds one of some sample points outside; the end of a closed face is none of them.
-bool reaches_a_sample(const Program& where, const UniformGrid& grid, const std::vector<Extent>& extents) {
+bool reaches_a_sample(const Program& where, const UniformGrid& grid,
+                      const std::vector<PlainExtent>& extents) {
   std::vector<std::vector<Rational>> samples;
   std::vector<std::int64_t> counts;
   const std::vector<std::uint32_t> variables = where.variables();
@@ -247,7 +249,7 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
 Reach reach_beyond(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
                    const ResultSide& side) {
   REQUIRES((side.above ? grid[side.state].above : grid[side.state].below) == Outside::unsafe);
-  std::vector<Extent> extents;
+  std::vector<PlainExtent> extents;
   for (std::size_t i = 0; i < grid.size(); ++i)
     extents.push_back(i == side.state ? outside_of(grid[i], side.above) : extent_of(grid[i]));
   std::vector<Interval> box(spec.slot_count());

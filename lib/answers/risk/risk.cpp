@@ -36,9 +36,9 @@ void for_each_in_units(const RowEngine& engine, const RowNumbers& rows, ThreadTe
   });
 }
 
-class Iteration {
+class RiskIteration {
  public:
-  Iteration(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team)
+  RiskIteration(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team)
       : problem_(problem),
         engine_(*problem.controller->engine),
         going_on_(*problem.controller->invariant),
@@ -239,7 +239,7 @@ std::vector<RiskRows> first_risks(const CellSet& invariant, std::size_t modes, c
 }
 
 Risk find_risk(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team) {
-  Iteration iteration(problem, watch, team);
+  RiskIteration iteration(problem, watch, team);
   iteration.run();
   return iteration.result(iteration.rate());
 }

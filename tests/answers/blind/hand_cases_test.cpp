@@ -11,20 +11,20 @@
 
 #include "answers/blind/answer.hpp"
 #include "answers/blind/fields.hpp"
+#include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
 using Steps = std::vector<std::int32_t>;
 
 constexpr std::int32_t kUnbounded = DelayLayers::kUnbounded;
 
 /// e becomes 1 at a mistake. @param s equation of the state that is the right action, 0 to `last`
-Json make_spec(int last, const char* s, const char* e, const Json& values_of_second) {
-  Json spec = Json::parse(R"({"coordreq": 1, "name": "case",
+SortedJson make_spec(int last, const char* s, const char* e, const SortedJson& values_of_second) {
+  SortedJson spec = SortedJson::parse(R"({"coordreq": 1, "name": "case",
 "states": [{"name": "s", "lower": 0, "step": 1, "discrete": true},
            {"name": "e", "lower": 0, "upper": 1, "step": 1, "discrete": true}],
 "inputs": [{"name": "u1", "values": [0, 1]}, {"name": "u2"}],
@@ -36,13 +36,13 @@ Json make_spec(int last, const char* s, const char* e, const Json& values_of_sec
   return spec;
 }
 
-Json match() {
+SortedJson match() {
   return make_spec(1, "s", "if(u1 == s, 0, 1)", {0});
 }
-Json toggle() {
+SortedJson toggle() {
   return make_spec(1, "1 - s", "if(u1 == s, 0, 1)", {0});
 }
-Json order() {
+SortedJson order() {
   return make_spec(2, "s", "if(s == 0, if(u1 == 0, 0, 1), if(u1 == 1, if(u2 == s - 1, 0, 1), 1))", {0, 1});
 }
 
@@ -61,7 +61,7 @@ Steps where_safe(const FastAnalysis& fast, const DelayLayers& layers) {
   return steps;
 }
 
-void expect_answer(const Json& json, const Answer& expected) {
+void expect_answer(const SortedJson& json, const Answer& expected) {
   ThreadTeam team(1);
   const ProblemSpec spec = read_spec(json.dump(), "case");
   const FastAnalysis fast(spec, team);
@@ -83,13 +83,13 @@ TEST(BlindHandCases, WhatIsRightOnceIsWrongTheNextTime) {
 
 TEST(BlindHandCases, ClassesAreTakenInTheOrderOfTheSpec) {
   expect_answer(order(), {{3, 1}, 1, {1, kUnbounded, 1}});
-  Json exchanged = order();
+  SortedJson exchanged = order();
   std::swap(exchanged["agents"][0], exchanged["agents"][1]);
   expect_answer(exchanged, {{3, 1}, 1, {kUnbounded, 1, 1}});
 }
 
 TEST(BlindHandCases, SightIsOfUse) {
-  Json spec = order();
+  SortedJson spec = order();
   spec["agents"][0]["sees"] = {"s"};
   expect_answer(spec, {{3, 2}, 1, {kUnbounded, kUnbounded, 1}});
 }
@@ -112,7 +112,7 @@ TEST(BlindHandCases, TablesHoldWhatIsRightWhereverTheSystemMayBe) {
 TEST(BlindHandCases, AMemoryIsSeenByWhoSeesWhatItRemembers) {
   ThreadTeam team(1);
   // Once it is known that s was 1 it is known for ever, by who sees s.
-  Json json = match();
+  SortedJson json = match();
   json["memory"] = {{"was", "previous(s >= 1)"}};
   for (const bool sees : {false, true}) {
     if (sees) json["agents"][0]["sees"] = {"s"};
@@ -126,7 +126,7 @@ TEST(BlindHandCases, AMemoryIsSeenByWhoSeesWhatItRemembers) {
 
 TEST(BlindHandCases, WithNoStepNothingIsTold) {
   ThreadTeam team(1);
-  Json json = match();
+  SortedJson json = match();
   json["coordination"]["max_delay"] = 0;
   const ProblemSpec spec = read_spec(json.dump(), "case");
   const FastAnalysis fast(spec, team);

@@ -8,20 +8,20 @@
 #include <vector>
 
 #include "answers/silence/answer.hpp"
+#include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
 using Silences = std::vector<std::int32_t>;
 
 constexpr std::int32_t kForGood = DelayLayers::kUnbounded;
 
 /// x and y in 0, ..., 4, of which a moves the one and b the other; both have to stay.
-Json two_points(const Json& silence) {
-  Json spec = Json::parse(R"({"coordreq": 1, "name": "points",
+SortedJson two_points(const SortedJson& silence) {
+  SortedJson spec = SortedJson::parse(R"({"coordreq": 1, "name": "points",
 "states": [{"name": "x", "lower": 0, "upper": 4, "step": 1, "discrete": true},
            {"name": "y", "lower": 0, "upper": 1, "step": 1, "discrete": true, "outside": "saturate"}],
 "inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [0, 1]}],
@@ -37,7 +37,7 @@ struct Told {
   std::vector<std::int64_t> lacking;
 };
 
-Told found(const Json& json) {
+Told found(const SortedJson& json) {
   ThreadTeam team(1);
   const ProblemSpec spec = read_spec(json.dump(), "case");
   const FastAnalysis fast(spec, team);
@@ -51,7 +51,7 @@ Told found(const Json& json) {
   return result;
 }
 
-Silences silence_told(const Json& actions) {
+Silences silence_told(const SortedJson& actions) {
   return found(two_points({{"actions", actions}})).silence;
 }
 
@@ -82,7 +82,7 @@ TEST(SilenceHandCases, WhereSomebodyIsToldNothingThereIsNone) {
 }
 
 TEST(SilenceHandCases, TheFirstClassThatLacksAnActionIsNamed) {
-  Json spec = two_points({{"actions", {{"a", "x != 2"}, {"b", "x != 2"}}}});
+  SortedJson spec = two_points({{"actions", {{"a", "x != 2"}, {"b", "x != 2"}}}});
   EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{2, 0}));
   // Outside K nothing is left to b, which has no rule; K' is larger than K.
   spec["controller"] = {{"synthesis", "given"}, {"allow", "x >= 1 or u >= 1"}};
@@ -92,7 +92,7 @@ TEST(SilenceHandCases, TheFirstClassThatLacksAnActionIsNamed) {
 }
 
 TEST(SilenceHandCases, WhatIsForbiddenIsBlockedAlsoToOneAgentAlone) {
-  Json spec = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}});
+  SortedJson spec = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}});
   spec["controller"] = {{"allow", "u <= 0 or x != 1"}};
   EXPECT_EQ(found(spec).silence, (Silences{1, 0, 2, 1, 0}));
   spec["controller"] = {{"allow", "x != 1"}};  // of no input at all
@@ -100,7 +100,7 @@ TEST(SilenceHandCases, WhatIsForbiddenIsBlockedAlsoToOneAgentAlone) {
 }
 
 TEST(SilenceHandCases, WhatComesAfterHasToBeSafeForEver) {
-  const Json actions = {{"a", "u == 1"}, {"b", "true"}};
+  const SortedJson actions = {{"a", "u == 1"}, {"b", "true"}};
   EXPECT_EQ(
       found(two_points({{"actions", actions}, {"then", {{"a", "u == if(x <= 2, 0, 1)"}, {"b", "v == 1"}}}}))
           .silence,
@@ -114,7 +114,7 @@ TEST(SilenceHandCases, WhatComesAfterHasToBeSafeForEver) {
 /// Cells where the task is over count as left for good: agents choose nothing there, and ways into them are
 /// safe for ever.
 TEST(SilenceHandCases, TheEndOfTheTaskIsReachedForGood) {
-  Json spec = two_points({{"actions", {{"a", "u == 1 and x != 3"}, {"b", "true"}}}});
+  SortedJson spec = two_points({{"actions", {{"a", "u == 1 and x != 3"}, {"b", "true"}}}});
   EXPECT_EQ(found(spec).silence, (Silences{3, 2, 1, 0, 0}));
   EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{2, 0}));
   spec["goal"] = {{"where", "x == 3"}, {"then", "over"}};
@@ -131,8 +131,8 @@ TEST(SilenceHandCases, TheEndOfTheTaskIsReachedForGood) {
 
 TEST(SilenceHandCases, WhatComesAfterMayEndTheTask) {
   // Down from 2 on, where they fall out of the domain unless the task is over at 1; 3 and 4 rise out of it.
-  const Json then = {{"a", "u == if(x <= 2, -1, 1)"}, {"b", "v == 0 and x != 1"}};
-  Json spec = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}, {"then", then}});
+  const SortedJson then = {{"a", "u == if(x <= 2, -1, 1)"}, {"b", "v == 0 and x != 1"}};
+  SortedJson spec = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}, {"then", then}});
   EXPECT_EQ(found(spec).silence, (Silences{-1, -1, -1, -1, -1}));
   spec["goal"] = {{"where", "x == 1"}, {"then", "over"}};
   EXPECT_EQ(found(spec).silence, (Silences{-1, kForGood, 0, -1, -1}));
@@ -142,7 +142,7 @@ TEST(SilenceHandCases, WhatComesAfterMayEndTheTask) {
 
 TEST(SilenceHandCases, OneAnswerServesAllPartitionsWhereAllHaveRules) {
   ThreadTeam team(1);
-  Json json = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}});
+  SortedJson json = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}});
   json["coordination"]["partitions"] = "all";
   const FastAnalysis all(read_spec(json.dump(), "case"), team);
   EXPECT_EQ(all.answers->get<Silence>().partitions.size(), 1U);
