@@ -107,7 +107,7 @@ def datasets(file):
 
 
 class Cases(Case):
-    tried = set()  # attributes of datasets, with their values: kinds of files have many in common
+    tried = set()  # attributes and rough changes of datasets: kinds of files have many in common, and one is enough
 
     def results(self, spec):
         self.write("spec.json", spec)
@@ -150,22 +150,23 @@ class Cases(Case):
             for change in self.dataset_changes():
                 if name == "enclosed" and path in WIDER and change.__name__ == "one_more":
                     continue
+                is_fine = change.__name__ in ("one_more", "two_exchanged")
+                if not is_fine and not self.is_new(path, change.__name__):
+                    continue
                 with self.subTest(dataset=path, change=change.__name__):
                     done += self.assert_found(original, path, lambda file: change(file, path))
         for path, own in attributes.items():
             for attribute in own:
-                if (path in GIVEN and attribute == "sha256") or not self.is_new(original, path, attribute):
+                if (path in GIVEN and attribute == "sha256") or not self.is_new(path, attribute):
                     continue
                 with self.subTest(object=path, attribute=attribute):
                     done += self.assert_found(original, attribute, lambda file: self.other(file, path, attribute))
-        self.assertGreater(done, len(names))
+        self.assertGreater(done, len(names) // 2)
 
-    def is_new(self, original, path, attribute):
-        with h5py.File(original) as file:
-            key = (path, attribute, np.asarray(file[path].attrs[attribute]).tobytes(), file[path].shape if path != "/" else ())
-        if key in self.tried:
+    def is_new(self, *change):
+        if change in self.tried:
             return False
-        self.tried.add(key)
+        self.tried.add(change)
         return True
 
     @staticmethod
