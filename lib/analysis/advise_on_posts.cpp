@@ -191,8 +191,8 @@ Warnings advise_on_posts(const AnalysisContext& context, const std::vector<State
   REQUIRES(context.engine && context.hull);
   constexpr std::size_t kLongText = std::size_t{1} << 20;
   const bool is_short = context.spec.text.size() <= kLongText;
-  const Json written =
-      is_short ? parse_json(context.spec.text, JsonComments::skipped) : Json{{"states", Json::array()}};
+  const Json states =
+      is_short ? parse_json(context.spec.text, JsonComments::skipped).at("states") : Json::array();
   const Abstraction& abstraction = *context.abstraction;
   Warnings found;
   std::vector<std::string> blocked;
@@ -203,7 +203,7 @@ Warnings advise_on_posts(const AnalysisContext& context, const std::vector<State
     for (const bool above : {false, true}) {
       const Outside rule = above ? dimension.above : dimension.below;
       if (rule != Outside::unsafe) continue;
-      if (is_left_at_default(written["states"], state, above ? "above" : "below")) sides.push_back(above);
+      if (is_left_at_default(states, state, above ? "above" : "below")) sides.push_back(above);
     }
     if (sides.empty() && !may_move_less_than_a_cell(abstraction.tables[i], i, dimension.count)) continue;
     const Spreads spreads = spreads_of(abstraction.tables[i], i, dimension.count);

@@ -107,7 +107,7 @@ def datasets(file):
 
 
 class Cases(Case):
-    tried = set()  # attributes and rough changes of datasets: kinds of files have many in common, and one is enough
+    tried = set()  # attributes with their values, rough changes of datasets: kinds of files have many in common
 
     def results(self, spec):
         self.write("spec.json", spec)
@@ -142,7 +142,9 @@ class Cases(Case):
         with h5py.File(original) as file:
             names = datasets(file)
             objects = ["/"] + names
-            attributes = {n: [a for a in file[n].attrs if a not in NOT_LOOKED_AT | AXES] for n in objects}
+            attributes = {
+                n: [(a, np.asarray(v).tobytes()) for a, v in file[n].attrs.items() if a not in NOT_LOOKED_AT | AXES] for n in objects
+            }
         done = 0
         for path in names:
             if path in GIVEN:
@@ -156,8 +158,8 @@ class Cases(Case):
                 with self.subTest(dataset=path, change=change.__name__):
                     done += self.assert_found(original, path, lambda file: change(file, path))
         for path, own in attributes.items():
-            for attribute in own:
-                if (path in GIVEN and attribute == "sha256") or not self.is_new(path, attribute):
+            for attribute, value in own:
+                if (path in GIVEN and attribute == "sha256") or not self.is_new(path, attribute, value):
                     continue
                 with self.subTest(object=path, attribute=attribute):
                     done += self.assert_found(original, attribute, lambda file: self.other(file, path, attribute))
