@@ -30,7 +30,7 @@ void add(Warnings more, Warnings& all) {
 
 /// The warnings of a single process, from K or from S alone.
 Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion, bool finds_invariance,
-                      ThreadTeam& team) {
+                      ThreadTeam& team, SearchWork& search) {
   Warnings all = advise_on_spec(model.spec());
   add(advise_on_units(model.spec(), motion), all);
   if (!has_few_posts(model)) return all;
@@ -39,7 +39,8 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
   if (finds_invariance) run_stages(invariance_stages(model.spec()), answers, {.team = team});
   add(advise_on_posts(answers.context, motion), all);
   add(advise_on_unseen_motion(answers.context,
-                              finds_invariance ? answers.get<Invariance>().invariant : answers.context.safe),
+                              finds_invariance ? answers.get<Invariance>().invariant : answers.context.safe,
+                              search),
       all);
   return all;
 }
@@ -47,21 +48,25 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
 }  // namespace
 
 Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion, ThreadTeam& team) {
-  return advise_alone(model, motion, false, team);
+  SearchWork search;
+  return advise_alone(model, motion, false, team, search);
 }
 
-Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, ThreadTeam& team) {
+Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, ThreadTeam& team,
+                Json& work) {
   REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
   Warnings all;
+  SearchWork search;
   if (answers.context.share) {  // nobody has all of S and K: small ones are found once more
-    all = advise_alone(answers.context.model, motion, true, team);
+    all = advise_alone(answers.context.model, motion, true, team, search);
   } else {
     all = advise_on_spec(answers.context.spec);
     add(advise_on_units(answers.context.spec, motion), all);
     add(advise_on_posts(answers.context, motion), all);
-    add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant), all);
+    add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, search), all);
   }
-  add(advise_on_answers(answers, team), all);
+  work["helpers"]["unseen motion"] = {{"reads", search.reads}, {"solutions", search.followed}};
+  add(advise_on_answers(answers, team, work), all);
   for (const Answer& answer : all_answers()) {
     if (answer.advise != nullptr) add(answer.advise(answers), all);
   }

@@ -29,15 +29,16 @@ namespace coordreq {
 /// that would help. To find these, one rule, disturbance, error or step after the other is relaxed on a copy
 /// with at most some 10^5 cells, within a fixed amount of work: the same on every machine. A relaxed problem
 /// that cannot be analysed is passed over. @pre K and the layers are there
-[[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
+/// @param work takes what the trials did: `helpers/advice` with `trials` and `work`, about a nanosecond each
+[[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team, Json& work);
 
 /// All that is known without the answer; what posts show only where they are few. @param motion of the spec
 /// @throws SpecError where the analysis does, as far as posts are looked at
 [[nodiscard]] Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion,
                                      ThreadTeam& team);
-/// All of them. @pre as advise_on_answers()
+/// All of them. @param work takes counts of what was done for them. @pre as advise_on_answers()
 [[nodiscard]] Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion,
-                              ThreadTeam& team);
+                              ThreadTeam& team, Json& work);
 
 /// A list of objects with `kind`, `place` and `message`.
 [[nodiscard]] Json warnings_json(const Warnings& warnings);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "analysis/advice.hpp"
@@ -143,14 +144,17 @@ struct OutOfWork {};
 /// The work that trials may take: counted, so that no clock decides which are tried.
 class WorkLimit {
  public:
+  /// @param spent takes what has been spent; @pre unchecked: it outlives this object
+  explicit WorkLimit(double& spent) : spent_(spent) {}
+
   /// @throws OutOfWork
   void spend(double work) {
-    left_ -= work;
-    if (left_ < 0) throw OutOfWork();
+    spent_ += work;
+    if (spent_ > kMostWork) throw OutOfWork();
   }
 
  private:
-  double left_ = kMostWork;
+  double& spent_;
 };
 
 double work_of_tables(const Model& model) {
@@ -208,11 +212,12 @@ Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
 struct Trials {
   std::vector<std::string> helped;
   std::size_t tried = 0;
+  double work = 0;  ///< counted as for WorkLimit
 };
 
 Trials try_all(const ProblemSpec& spec, Fault fault, ThreadTeam& team) {
   Trials trials;
-  WorkLimit limit;
+  WorkLimit limit(trials.work);
   try {
     for (const Relaxation& relaxation : relaxations(spec)) {
       ProblemSpec relaxed = spec;
@@ -239,7 +244,7 @@ constexpr std::string_view kAskExplain =
 
 /// The changes that would help, as the end of a sentence. @param otherwise is added if there are none
 std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault, std::string_view otherwise,
-                     ThreadTeam& team) {
+                     ThreadTeam& team, Json& work) {
   const double most_entries = kMostWorkOfTables / work_of_entry(spec);
   const auto coarser = [&] { return coarse_copy(spec, partition, kMostCells, most_entries); };
   std::optional<CoarseCopy> copy = if_possible(coarser).value_or(std::nullopt);
@@ -247,6 +252,7 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
   // Parts of a cell may cost a thousand times what its entry is reckoned to; without them posts are wider.
   if (spec.dynamics.time == Time::continuous) copy->spec.abstraction.effort = 0;
   const Trials trials = try_all(copy->spec, fault, team);
+  work["helpers"]["advice"] = {{"trials", trials.tried}, {"work", trials.work}};
   if (trials.tried == 0) return "";
   const std::string count =
       fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));
@@ -256,7 +262,7 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
 
 }  // namespace
 
-Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
+Warnings advise_on_answers(const Answers& answers, ThreadTeam& team, Json& work) {
   REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
   const ProblemSpec& spec = answers.context.spec;
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
@@ -267,7 +273,7 @@ Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
       const bool is_unsafe = answers.context.safe_cells == 0;
       return {{"empty", is_unsafe ? "/safe" : "",
                fmt::format("the {} set is empty on this grid{}", is_unsafe ? "safe" : "invariance",
-                           remedies(spec, p, fault, is_unsafe ? "" : kAskExplain, team))}};
+                           remedies(spec, p, fault, is_unsafe ? "" : kAskExplain, team, work))}};
     }
     if (fault == Fault::no_silence) silent.push_back(p);
   }
@@ -279,7 +285,7 @@ Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
        fmt::format("with the partition {}{} no state tolerates even one step without coordination on this "
                    "grid{}",
                    partitions[silent.front()].name, others,
-                   remedies(spec, silent.front(), Fault::no_silence, kAskExplain, team))}};
+                   remedies(spec, silent.front(), Fault::no_silence, kAskExplain, team, work))}};
 }
 
 }  // namespace coordreq

@@ -156,22 +156,28 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   Json summary = summarise(answers, work);
   meter.tell(work);
   const std::optional<Tightness> tightness = find_tightness(answers.context);
+  if (tightness) work["helpers"]["tightness"] = {{"posts", tightness->posts.size()}};
   summary["tightness"] = tightness_json(tightness);
   const std::vector<StateMotion> motion = sample_motion(model.spec());
   summary["motion"] = motion_json(model.spec(), motion);
+  work["helpers"]["motion"] = {{"solutions", count_of_samples(model.spec())}};
   if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
   summary["output"] = options.output.empty() ? Json() : Json(options.output);
   summary["threads"] = team.size();
   summary["seconds"] = Json::object();
   for (const auto& [stage, seconds] : reporter.finish()) summary["seconds"][stage] = seconds;
-  summary["work"] = std::move(work);
   const auto peak = static_cast<std::int64_t>(peak_memory_bytes());
   summary["peak_memory_bytes"] = ranks == nullptr ? peak : ranks->greatest(peak);
-  Warnings warnings = is_first ? advise(answers, motion, team) : Warnings();
+  Warnings warnings = is_first ? advise(answers, motion, team, work) : Warnings();
   if (is_first) {
     for (Warning& more : advise_on_tightness(model.spec(), tightness)) warnings.push_back(std::move(more));
   }
+  // What is not the answer itself comes last.
+  Json helpers = std::move(work["helpers"]);
+  work.erase("helpers");
+  work["helpers"] = std::move(helpers);
+  summary["work"] = std::move(work);
   summary["warnings"] = warnings_json(warnings);
   return summary;
 }

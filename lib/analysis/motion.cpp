@@ -19,7 +19,7 @@ namespace coordreq {
 namespace {
 
 constexpr std::size_t kMostCorners = 256;
-constexpr std::size_t kBetween = 256;
+constexpr std::size_t kBetween = 64;
 constexpr double kMotionTolerance = 1e-9;
 
 /// Ends of what each slot can be.
@@ -141,6 +141,10 @@ std::vector<StateMotion> sample_motion(const SystemSpec& spec) {
     all[i].share = all[i].cells / static_cast<double>(spec.states[i].grid.count);
   }
   return all;
+}
+
+std::size_t count_of_samples(const SystemSpec& spec) {
+  return Starts(spec).count();
 }
 
 Json motion_json(const SystemSpec& spec, const std::vector<StateMotion>& motion) {

@@ -19,6 +19,8 @@ struct StateMotion {
 /// disturbances, all corners if they are few, and at points between: a fixed number of solutions, followed
 /// without a guarantee, so the greatest may be larger. Where a solution is undefined it is passed over.
 [[nodiscard]] std::vector<StateMotion> sample_motion(const SystemSpec& spec);
+/// Solutions that sample_motion() follows.
+[[nodiscard]] std::size_t count_of_samples(const SystemSpec& spec);
 
 /// A list of `state`, `amount`, `cells` and `share`, to six digits.
 [[nodiscard]] Json motion_json(const SystemSpec& spec, const std::vector<StateMotion>& motion);

@@ -20,8 +20,10 @@
 namespace coordreq {
 namespace {
 
-/// Reads of tables and of sets, of all pairs together.
-constexpr std::int64_t kMostReads = 2'000'000;
+/// Reads of tables and of sets, of all pairs together: a share of the cells, so that the search stays small
+/// beside the analysis.
+constexpr std::int64_t kFewestReads = 100'000, kMostReads = 2'000'000;
+constexpr std::int64_t kCellsOfRead = 2;
 /// Solutions that are followed, and the sub-steps of each.
 constexpr std::int64_t kMostFollowed = 500;
 constexpr std::int64_t kMostSubSteps = 64;
@@ -60,25 +62,27 @@ class PassageSearch {
         kept_(kept),
         posts_(abstraction_),
         is_safe_(context.spec.safe),
+        at_(grid_.size()),
+        chosen_(abstraction_.inputs.size()),
         moved_(grid_.size()) {
-    std::vector<std::int64_t> counts;
-    for (const GridDimension& dimension : grid_.dimensions()) counts.push_back(dimension.count);
-    counts_ = counts;
+    for (const GridDimension& dimension : grid_.dimensions()) counts_.push_back(dimension.count);
   }
 
   std::optional<Passage> run() {
     const std::int64_t all = grid_.points(), choices = abstraction_.inputs.count();
     const std::int64_t far = step_through(all), far_input = step_through(choices);
     std::int64_t number = 0, u = 0;
+    const std::int64_t most_reads = std::clamp(all / kCellsOfRead, kFewestReads, kMostReads);
     std::optional<Passage> first;
-    for (std::int64_t k = 0; k < all && reads_ < kMostReads && followed_ < kMostFollowed; ++k) {
+    for (std::int64_t k = 0; k < all && work_.reads < most_reads && work_.followed < kMostFollowed; ++k) {
       const std::int64_t x = place_of(number);
       number = (number + far) % all;
-      ++reads_;
+      ++work_.reads;
       if (!kept_.test(x) || (context_.over && context_.over->test(x))) continue;
+      for (std::size_t i = 0; i < grid_.size(); ++i) at_[i] = grid_.index(x, i);
       for (std::int64_t j = 0; j < std::min(kInputsOfCell, choices); ++j) {
         u = (u + far_input) % choices;
-        if (!may_pass(x, u) || !is_admissible(x, u)) continue;
+        if (!may_pass(u) || !is_admissible(x, u)) continue;
         const auto found = follow(x, u);
         if (found && found->is_unsafe) return found;
         if (!first) first = found;
@@ -86,6 +90,8 @@ class PassageSearch {
     }
     return first;
   }
+
+  [[nodiscard]] const SearchWork& work() const { return work_; }
 
  private:
   /// Steps of this length, modulo `count`, come to all of them, those soon after one another far apart.
@@ -103,27 +109,28 @@ class PassageSearch {
     return place;
   }
 
-  /// Whether a straight line to the middle of the post passes a cell outside S.
-  bool may_pass(std::int64_t x, std::int64_t u) {
+  /// Whether a straight line from the cell `at_` to the middle of its post passes a cell outside S.
+  bool may_pass(std::int64_t u) {
     double most = 0;
-    reads_ += static_cast<std::int64_t>(grid_.size());
+    work_.reads += static_cast<std::int64_t>(grid_.size());
+    for (std::size_t j = 0; j < chosen_.size(); ++j) chosen_[j] = abstraction_.inputs.index(u, j);
+    const auto state = [this](std::size_t i) { return at_[i]; };
+    const auto input = [this](std::size_t j) { return chosen_[j]; };
     for (std::size_t i = 0; i < grid_.size(); ++i) {
-      const IndexRange raw = abstraction_.raw(i, x, u);
+      const IndexRange raw = abstraction_.tables[i].range(i, state, input);
       if (raw.first == std::numeric_limits<std::int32_t>::min() ||
           raw.last == std::numeric_limits<std::int32_t>::max())
         return false;
       const double middle = (static_cast<double>(raw.first) + raw.last) / 2;
-      moved_[i] = context_.spec.dynamics.update(grid_.state(i)) != nullptr
-                      ? 0
-                      : middle - static_cast<double>(grid_.index(x, i));
+      moved_[i] =
+          context_.spec.dynamics.update(grid_.state(i)) != nullptr ? 0 : middle - static_cast<double>(at_[i]);
       most = std::max(most, std::fabs(moved_[i]));
     }
     parts_ = std::min(kMostSubSteps, static_cast<std::int64_t>(std::ceil(most)));
     for (std::int64_t part = 1; part < parts_; ++part) {
-      ++reads_;
+      ++work_.reads;
       const double share = static_cast<double>(part) / static_cast<double>(parts_);
-      if (is_outside(
-              [&](std::size_t i) { return static_cast<double>(grid_.index(x, i)) + share * moved_[i]; }))
+      if (is_outside([&](std::size_t i) { return static_cast<double>(at_[i]) + share * moved_[i]; }))
         return true;
     }
     return false;
@@ -160,13 +167,13 @@ class PassageSearch {
       cells *= std::int64_t{range.last} - range.first + 1;
       if (cells > kMostOfPost) return false;
     }
-    reads_ += cells;
+    work_.reads += cells;
     return for_each_cell(grid_, post.box, [this](std::int64_t cell) { return kept_.test(cell); });
   }
 
   /// The solution from the centre of the cell.
   std::optional<Passage> follow(std::int64_t x, std::int64_t u) {
-    ++followed_;
+    ++work_.followed;
     const SystemSpec& spec = context_.spec;
     SystemSpec part = spec;
     const std::int64_t parts = std::min(kMostSubSteps, 2 * parts_);
@@ -212,10 +219,11 @@ class PassageSearch {
   CellPosts posts_;
   Evaluator<double> is_safe_;
   std::vector<std::int64_t> counts_;
-  std::vector<double> moved_;  ///< [dimension] to the middle of the post
-  std::int64_t parts_ = 0;     ///< of the straight line
-  std::int64_t reads_ = 0;
-  std::int64_t followed_ = 0;
+  std::vector<std::int64_t> at_;      ///< [dimension] index of the cell that is looked at
+  std::vector<std::int64_t> chosen_;  ///< [input] index of its value
+  std::vector<double> moved_;         ///< [dimension] to the middle of the post
+  std::int64_t parts_ = 0;            ///< of the straight line
+  SearchWork work_;
 };
 
 std::string with_unit(double value, const std::string& unit) {
@@ -257,12 +265,14 @@ std::string longest_way(const SystemSpec& spec, const Passage& passage) {
 
 }  // namespace
 
-Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept) {
+Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept, SearchWork& work) {
   REQUIRES(context.engine && context.hull && !context.share &&
            kept.rows() == context.abstraction->grid.rows());
   const ProblemSpec& spec = context.spec;
   if (spec.dynamics.time == Time::discrete || spec.abstraction.between_samples) return {};
-  const std::optional<Passage> found = PassageSearch(context, kept).run();
+  PassageSearch search(context, kept);
+  const std::optional<Passage> found = search.run();
+  work = search.work();
   if (!found) return {};
   return {{"between_samples", "/abstraction",
            fmt::format("safety is asked only at samples, every {}: from {}, with {}, the way to the next one "

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <optional>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "model/input_space.hpp"
 #include "model/outside.hpp"
 #include "model/uniform_grid.hpp"
@@ -78,6 +80,22 @@ struct TransitionTable {
       upper += term.upper[at];
     }
     return sum_range(lower + (offset << kFractionBits), upper + (offset << kFractionBits));
+  }
+
+  /// The least range around range() under `inputs_count` joint choices of `inputs`, which is all of them:
+  /// they stand side by side. @pre it is no sum
+  template <class State>
+  [[nodiscard]] IndexRange around_inputs(std::size_t own, const State& state,
+                                         std::size_t inputs_count) const {
+    REQUIRES(!is_sum());
+    const auto first = static_cast<std::size_t>(
+        position(*this, state, [](std::size_t) { return std::int64_t{0}; }) - before);
+    IndexRange around = entries[first];
+    for (std::size_t k = 1; k < inputs_count; ++k) {
+      around.first = std::min(around.first, entries[first + k].first);
+      around.last = std::max(around.last, entries[first + k].last);
+    }
+    return shift ? moved(around, state(own)) : around;
   }
 
   static constexpr int kFractionBits = 32;

@@ -177,8 +177,8 @@ $""",
                 "output",
                 "threads",
                 "seconds",
-                "work",
                 "peak_memory_bytes",
+                "work",
                 "warnings",
             ],
         )
@@ -193,8 +193,10 @@ $""",
             list(summary["seconds"]), ["abstraction", "safe set", "invariance", "layers a|b", "writing"]
         )
         self.assertTrue(all(seconds >= 0 for seconds in summary["seconds"].values()))
-        self.assertEqual(list(summary["work"]), ["invariance", "layers a|b"])
-        for work in summary["work"].values():
+        self.assertEqual(list(summary["work"]), ["invariance", "layers a|b", "helpers"])
+        self.assertEqual(list(summary["work"]["helpers"]), ["motion", "unseen motion"])
+        for name in ("invariance", "layers a|b"):
+            work = summary["work"][name]
             self.assertEqual(list(work), ["sweeps", "rows_visited", "rows_skipped"])
             self.assertGreater(work["rows_visited"], 0)
         self.assertGreater(summary["peak_memory_bytes"], 2**20)

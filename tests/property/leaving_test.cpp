@@ -72,16 +72,16 @@ void expect_same_leaving(const ProblemSpec& spec, ThreadTeam& team) {
   const PlainAnalysis plain = plainly(spec, fast);
   SeenLeaving seen;
   for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
-    const std::optional<std::int64_t>& leaving = fast.layers[p].leaving;
+    const std::optional<LeavingCounts>& leaving = fast.layers[p].leaving;
     const bool is_asked = has_safe_side(spec) && !fast.layers[p].truncated &&
                           spec.coordination.partitions[p].classes.size() > 1;
     RC_ASSERT(leaving.has_value() == is_asked);
     if (!leaving) continue;
-    RC_ASSERT(*leaving == leaving_plainly(spec, fast, plain, p));
+    RC_ASSERT(leaving->cells == leaving_plainly(spec, fast, plain, p));
     const std::int64_t unbounded = fast.layers[p].sizes.back();
-    seen.some = seen.some || (*leaving > 0 && *leaving < unbounded);
-    seen.all = seen.all || (*leaving > 0 && *leaving == unbounded);
-    seen.none = seen.none || (*leaving == 0 && unbounded > 0);
+    seen.some = seen.some || (leaving->cells > 0 && leaving->cells < unbounded);
+    seen.all = seen.all || (leaving->cells > 0 && leaving->cells == unbounded);
+    seen.none = seen.none || (leaving->cells == 0 && unbounded > 0);
   }
   RC_CLASSIFY(seen.some, "some leave");
   RC_CLASSIFY(seen.all, "all leave");

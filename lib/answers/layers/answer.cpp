@@ -60,7 +60,7 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   DelayLayers& layers = all[p];
   follow_from_levels(coordination.max_delay, work.team, layers);
   if (!counts_leaving(context, layers)) return;
-  layers.leaving = 0;
+  layers.leaving.emplace();
   if (layers.sizes.back() == context.over_cells) return;
   const Projections& silent = projections();
   work.enter_part("safe sides");
@@ -89,6 +89,14 @@ Json longest_delay(const AnalysisContext& context, const DelayLayers& layers) {
   return nearest_double(context.spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
 }
 
+/// The work of counting the cells from which runs leave.
+Json leaving_work_json(const LeavingCounts& counts) {
+  Json json = work_json(counts.wave);
+  json["rows_near"] = counts.rows_near;
+  json["rows_read"] = counts.rows_read;
+  return json;
+}
+
 Json stored_json(const StoredPartition& partition) {
   return {{"F", partition.truncated() ? Json() : Json(partition.fixed_point_index)},
           {"layers", partition.layer_sizes},
@@ -115,7 +123,7 @@ Json partition_json(const AnalysisContext& context, const PartitionSpec& partiti
   for (const auto& agents : partition.classes) json["classes"].push_back(class_name(spec.agents, agents));
   json["F"] = layers.truncated ? Json() : Json(layers.fixed_point_index);
   json["fixed_point"] = layers.truncated ? Json() : Json(layers.sizes.back());
-  json["leaving"] = layers.leaving ? Json(*layers.leaving) : Json();
+  json["leaving"] = layers.leaving ? Json(layers.leaving->cells) : Json();
   json["layers"] = layers.sizes;
   json["truncated"] = layers.truncated;
   json["never_without_connection"] = cells_bound_to_connect(context, layers);
@@ -162,6 +170,8 @@ void summarise_layers(const Answers& answers, Json& summary, Json& work) {
     const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
     summary["partitions"].push_back(partition_json(answers.context, partition, layers));
     work["layers " + partition.name] = work_json(layers.counts);
+    if (layers.leaving)
+      work["helpers"]["leaving cells " + partition.name] = leaving_work_json(*layers.leaving);
   }
 }
 

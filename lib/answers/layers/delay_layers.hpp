@@ -15,6 +15,15 @@ class Projections;
 class RowEngine;
 class RowHull;
 
+/// Cells of Z_F from which a run leaves through a `safe` side, see count_leaving_cells(), and the work of
+/// counting them, the same for any number of threads.
+struct LeavingCounts {
+  std::int64_t cells = 0;
+  std::int64_t rows_near = 0;  ///< rows with cells near such a side
+  std::int64_t rows_read = 0;  ///< rows of posts read for them
+  WaveCounts wave;
+};
+
 /// The delay layers of one partition, contract "Layers".
 struct DelayLayers {
   static constexpr std::int32_t kOutsideSafe = -2;
@@ -29,9 +38,7 @@ struct DelayLayers {
   bool truncated =
       false;  ///< `max_delay` came first: the last layer's delays are lower bounds, none is unbounded
   WaveCounts counts;
-  /// Cells of Z_F from which a run leaves through a `safe` side, see count_leaving_cells(); nothing if they
-  /// are not counted.
-  std::optional<std::int64_t> leaving = {};
+  std::optional<LeavingCounts> leaving = {};  ///< nothing if such cells are not counted
 
   /// The delay that LevelMap::kTop stands for.
   [[nodiscard]] std::int32_t top_delay() const {

@@ -29,11 +29,12 @@ std::size_t choose_fastest(const ActionGrouping& grouping) {
 
 template <class Level>
 IndependentActions<Level>::IndependentActions(const Projections& projections, const CellSet& invariant,
-                                              int workers)
+                                              int workers, Tells tells)
     : projections_(projections),
       grouping_(projections.grouping()),
       boxes_(grouping_),
       invariant_(invariant),
+      tells_(tells),
       fastest_(choose_fastest(grouping_)),
       work_(static_cast<std::size_t>(workers)) {}
 
@@ -41,8 +42,16 @@ template <class Level>
 bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old,
                                             Level* next, int worker) {
   Workspace& work = work_[static_cast<std::size_t>(worker)];
-  // No level rises: posts that cannot lower a cell are not read.
   constexpr Level kTop = PostReader<Level>::kTop;
+  if (tells_ == Tells::whether) {
+    if (!is_open(old, posts.lanes())) return false;
+    const auto lost_or_not = [](Level level) { return level == kTop ? kTop : Level{0}; };
+    std::transform(old, old + posts.lanes(), next, lost_or_not);
+    lower(place, posts, next, work);
+    std::transform(next, next + posts.lanes(), next, lost_or_not);
+    return true;
+  }
+  // No level rises: posts that cannot lower a cell are not read.
   std::transform(old, old + posts.lanes(), next, [](Level level) {
     return level == 0 || level == kTop ? level : static_cast<Level>(level - 1);
   });
@@ -88,7 +97,11 @@ void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader
     if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)
       enter_page(work.row.pages[p / IndependentPosts::kLabelsOfPage], posts.lanes(), work);
     work.label = static_cast<Level>(p % IndependentPosts::kLabelsOfPage + 1);
-    lower_by_class(work.row.parts[p], 0, posts, next, work);
+    const IndependentPosts::Part& part = work.row.parts[p];
+    if (work.labels != nullptr &&
+        !is_open(next + part.begin, static_cast<std::size_t>(part.end - part.begin)))
+      continue;
+    lower_by_class(part, 0, posts, next, work);
   }
 }
 
@@ -124,10 +137,12 @@ void IndependentActions<Level>::lower_by_box(const IndependentPosts::Part& part,
                                              Level* next, Workspace& work) const {
   if (work.labels == nullptr) {
     const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    if (!is_open(next, n)) return;
     const Level* pair[] = {next, posts.minimum(work.box)};
     posts.kernels().minimum(pair, 2, next, n);
     return;
   }
+  if (!is_open(next + part.begin, static_cast<std::size_t>(part.end - part.begin))) return;
   posts.kernels().lower_at(posts.minimum(work.box, part.begin, part.end), work.labels + part.begin,
                            work.label, next + part.begin, static_cast<std::size_t>(part.end - part.begin));
 }
@@ -160,6 +175,7 @@ void IndependentActions<Level>::lower_by_tuples(const RowPlace& place, const Row
                                                 Workspace& work) const {
   work.tuple.begin(grouping_, place, work.groups, work.candidates, fastest_);
   do {
+    if (!is_open(row.next, row.posts.lanes())) return;
     if (!row.is_full && !is_some_reasonable(row, work)) continue;
     row.posts.take(work.tuple.all_slice_ids());
     lower_by_several(row, 0, work.candidates[fastest_].size(), grouping_.engine().all_lanes(), work);

@@ -1,203 +1,168 @@
 #include "answers/layers/leaving_cells.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <map>
 #include <memory>
 #include <utility>
 
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/independent_actions.hpp"
-#include "answers/one_cell/cell_members.hpp"
-#include "answers/one_cell/cell_posts.hpp"
+#include "answers/layers/safe_sides.hpp"
 #include "base/index.hpp"
 #include "engine/find_levels.hpp"
 #include "engine/level_messages.hpp"
-#include "model/odometer.hpp"
+#include "engine/post_reader.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Words in which the cells near a side are remembered.
-constexpr std::int64_t kMostWordsOfSide = std::int64_t{1} << 13;
-
-bool is_safe(const GridDimension& dimension, bool above) {
-  return traits(above ? dimension.above : dimension.below).is_only_safe();
-}
-
-/// The `safe` sides of a problem, and the cells from which some joint input leads out through one. These are
-/// found once for all rows that agree in what the side depends on: most cells are near none.
-///
-/// Immutable once built, so safe to share between threads.
-class SafeSides {
+/// Looks for joint inputs of C(x) that leave through a `safe` side, for a row of cells of Z_F at once. There
+/// C(x) = IND_C(x), see count_leaving_cells(). One object a thread.
+template <class Level>
+class LeavingRows {
  public:
-  explicit SafeSides(const AnalysisContext& context)
-      : abstraction_(*context.abstraction), engine_(*context.engine), grid_(abstraction_.grid) {
-    for (std::size_t i = 0; i < grid_.size(); ++i) {
-      if (is_safe(grid_[i], false) || is_safe(grid_[i], true)) add(i);
-    }
-  }
-
-  [[nodiscard]] bool leaves(std::int64_t x, std::int64_t u) const {
-    return std::any_of(sides_.begin(), sides_.end(),
-                       [&](const Side& side) { return leaves_by(side.dimension, x, u); });
-  }
-
-  /// result = the cells of a row, among the given ones, from which some joint input, in C(x) or not, leads
-  /// out through a side.
-  void find_near(const RowPlace& place, ConstRow cells, MutableRow result) const {
-    std::fill(result.begin(), result.end(), 0);
-    for (const Side& side : sides_) {
-      if (side.near.empty()) {
-        for_each_bit(cells, [&](std::int64_t lane) { mark_if_near(side, place.row, lane, result.data()); });
-        continue;
-      }
-      const Word* const near = side.near.data() + choice(side, place) * side.words;
-      for (std::size_t w = 0; w < result.size(); ++w) result[w] |= near[side.words == 1 ? 0 : w];
-    }
-    for (std::size_t w = 0; w < result.size(); ++w) result[w] &= cells[w];
-  }
-
- private:
-  struct Side {
-    std::size_t dimension = 0;
-    std::vector<std::int64_t> parts =
-        {};  ///< numbers of joint inputs, one for each choice of the inputs on which it depends
-    std::size_t words = 1;        ///< of a row; one if it depends on no dimension along rows: all or nothing
-    std::vector<Word> near = {};  ///< [choice(), word]; empty: there are too many
-  };
-
-  void add(std::size_t i) {
-    Side& side = sides_.emplace_back();
-    side.dimension = i;
-    const TransitionTable& table = abstraction_.tables[i];
-    std::vector<std::int64_t> counts, strides;
-    for (const std::int32_t j : table.inputs) {
-      counts.push_back(abstraction_.inputs[at(j)].count());
-      strides.push_back(abstraction_.inputs.stride(at(j)));
-    }
-    Odometer inputs(counts);
-    do {
-      std::int64_t part = 0;
-      for (std::size_t k = 0; k < counts.size(); ++k) part += inputs.indices()[k] * strides[k];
-      side.parts.push_back(part);
-    } while (inputs.advance());
-    const bool is_along = std::any_of(table.states.begin(), table.states.end(),
-                                      [&](auto j) { return at(j) >= grid_.across(); });
-    side.words = is_along ? engine_.row_words() : 1;
-    const std::int64_t choices = engine_.slices()[i].size() / engine_.slices()[i].input_combinations;
-    if (choices > kMostWordsOfSide / static_cast<std::int64_t>(side.words)) return;
-    side.near.assign(at(choices) * side.words, 0);
-    std::vector<bool> is_known(at(choices), false);
-    const RowShare::Range own = own_rows(engine_.share(), engine_.rows());
-    for (RowPlace place(grid_, own.begin); place.row < own.end; place.advance(grid_)) {
-      const std::size_t number = choice(side, place);
-      if (!is_known[number]) fill(side, is_along, place.row, side.near.data() + number * side.words);
-      is_known[number] = true;
-    }
-  }
-
-  void fill(const Side& side, bool is_along, std::int64_t row, Word* near) const {
-    if (!is_along) {
-      mark_if_near(side, row, 0, near);
-      if (*near != 0) *near = ~Word{0};
-      return;
-    }
-    const RowFamily posts = engine_.posts();
-    posts.shape.for_each_run([&](std::int64_t begin, std::int64_t count) {
-      for (std::int64_t lane = begin; lane < begin + count; ++lane) mark_if_near(side, row, lane, near);
-    });
-  }
-
-  /// The number of the choice of states across rows on which the side depends.
-  [[nodiscard]] std::size_t choice(const Side& side, const RowPlace& place) const {
-    const RowSlices& slices = engine_.slices()[side.dimension];
-    return at(slices.base(place) / slices.input_combinations);
-  }
-
-  void mark_if_near(const Side& side, std::int64_t row, std::int64_t lane, Word* near) const {
-    const std::int64_t x = row * grid_.row_length() + lane;
-    if (std::any_of(side.parts.begin(), side.parts.end(),
-                    [&](std::int64_t part) { return leaves_by(side.dimension, x, part); }))
-      near[lane / CellSet::kWordBits] |= Word{1} << (lane % CellSet::kWordBits);
-  }
-
-  [[nodiscard]] bool leaves_by(std::size_t i, std::int64_t x, std::int64_t u) const {
-    const IndexRange raw = abstraction_.raw(i, x, u);
-    return (raw.first < 0 && is_safe(grid_[i], false)) ||
-           (raw.last >= grid_[i].count && is_safe(grid_[i], true));
-  }
-
-  const Abstraction& abstraction_;
-  const RowEngine& engine_;
-  const UniformGrid& grid_;
-  std::vector<Side> sides_;
-};
-
-/// Looks for a joint input of C(x) that leaves through a `safe` side. One object a thread.
-class LeavingInput {
- public:
-  LeavingInput(const Answers& answers, const SafeSides& sides)
+  /// @param levels those of the controller
+  LeavingRows(const Answers& answers, const Projections& projections, const SafeSides& sides,
+              const LevelRows<Level>& levels)
       : context_(answers.context),
-        grid_(context_.abstraction->grid),
-        invariant_(answers.get<Invariance>().invariant),
+        controller_(answers.get<GoingOn>().controller),
+        engine_(*context_.engine),
+        projections_(projections),
         sides_(sides),
-        posts_(*context_.abstraction) {}
+        posts_(engine_, levels),
+        asked_(engine_.row_words()),
+        near_(engine_.row_words()),
+        leaving_(engine_.row_words()),
+        members_(engine_.row_words()),
+        by_part_(sides.size()) {}
 
-  /// @pre unchecked: x is in Z_F.
-  bool is_at(std::int64_t x) {
-    posts_.move_to(x);
-    const std::int64_t all = context_.abstraction->inputs.count();
-    // The joint input that left the last cell most often leaves this one, too.
-    for (std::int64_t k = 0; k < all; ++k) {
-      const std::int64_t u = (last_ + k) % all;
-      if (!sides_.leaves(x, u) || !is_admissible(x, u)) continue;
-      last_ = u;
-      return true;
-    }
-    return false;
+  /// Takes the cells out of the row from which some joint input of C(x) leaves.
+  void take_out(const RowPlace& place, MutableRow row) {
+    std::copy(row.begin(), row.end(), asked_.begin());
+    if (context_.over) remove(context_.over->row(place.row), asked_);
+    sides_.find_near(place, asked_, near_);
+    if (!any_set(near_)) return;
+    ++rows_;
+    if (!is_full(place.row)) keep_admissible(place);
+    remove(near_, row);
   }
 
+  /// Rows with cells near a side, and rows of posts that were read for them.
+  [[nodiscard]] std::int64_t rows() const { return rows_; }
+  [[nodiscard]] std::int64_t reads() const { return reads_; }
+
  private:
-  [[nodiscard]] bool is_admissible(std::int64_t x, std::int64_t u) {
-    const PairTable* const allow = context_.pairs.admissible();
-    const std::int64_t row = x / grid_.row_length(), column = x % grid_.row_length();
-    if (allow != nullptr &&
-        (allow->row(row, u)[at(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) & 1) == 0)
-      return false;
-    if (context_.spec.controller.synthesis == Synthesis::given) return true;
-    const CellPost post = posts_.post(u, context_.tubes());
-    if (post.blocked != CellPost::Blocked::no) return false;
-    return post.all_left ||
-           for_each_cell(grid_, post.box, [this](std::int64_t cell) { return invariant_.test(cell); });
+  static void remove(ConstRow cells, MutableRow set) {
+    for (std::size_t w = 0; w < set.size(); ++w) set[w] &= ~cells[w];
+  }
+
+  /// Every joint input is in C(x), at all x of K in the row.
+  [[nodiscard]] bool is_full(std::int64_t row) const {
+    const RowSymmetry* const symmetry = projections_.equal_work().symmetry;
+    return projections_.is_full(symmetry == nullptr ? row : symmetry->canonical_of(row));
+  }
+
+  /// Keeps of near_ the cells from which a joint input of C(x) leaves.
+  void keep_admissible(const RowPlace& place) {
+    for (std::vector<std::vector<Word>>& parts : by_part_) parts.clear();
+    for (std::size_t side = 0; side < sides_.size(); ++side) by_part_[side].resize(sides_.parts(side));
+    members_of_.clear();
+    const std::int64_t unit = place.row / engine_.unit_rows();
+    if (unit != unit_) posts_.enter();
+    unit_ = unit;
+    asked_ = near_;
+    std::int64_t u = 0;
+    const std::int64_t all = context_.abstraction->inputs.count();
+    for (; u < all && any_set(asked_); ++u) {
+      if (find_leaving(place, u)) remove(admissible(place, u), asked_);
+    }
+    remove(asked_, near_);
+  }
+
+  /// leaving_ = the cells asked about from which joint input u, if it is allowed there, leaves. @returns
+  /// whether there are some
+  bool find_leaving(const RowPlace& place, std::int64_t u) {
+    std::fill(leaving_.begin(), leaving_.end(), 0);
+    for (std::size_t side = 0; side < sides_.size(); ++side) {
+      const std::size_t part = sides_.part_of(side, u);
+      std::vector<Word>& cells = by_part_[side][part];
+      if (cells.empty()) {
+        cells.resize(near_.size());
+        sides_.find_leaving(side, part, place, near_, cells);
+      }
+      for (std::size_t w = 0; w < leaving_.size(); ++w) leaving_[w] |= cells[w] & asked_[w];
+    }
+    if (const PairTable* const allow = context_.pairs.admissible(); allow != nullptr && any_set(leaving_)) {
+      const ConstRow allowed = allow->row(place.row, u);
+      for (std::size_t w = 0; w < leaving_.size(); ++w) leaving_[w] &= allowed[w];
+    }
+    return any_set(leaving_);
+  }
+
+  /// The cells of leaving_ with u in C(x).
+  ConstRow admissible(const RowPlace& place, std::int64_t u) {
+    std::copy(leaving_.begin(), leaving_.end(), members_.begin());
+    if (controller_.synthesis == Synthesis::maximal) {
+      const std::vector<Word>& kept = staying(place, u);
+      for (std::size_t w = 0; w < members_.size(); ++w) members_[w] &= kept[w];
+    }
+    return members_;
+  }
+
+  /// The cells of the row whose post under u lies in K, found once for all joint inputs with the same posts.
+  const std::vector<Word>& staying(const RowPlace& place, std::int64_t u) {
+    ids_.clear();
+    for (const RowSlices& slices : engine_.slices()) {
+      std::int64_t position = slices.base(place);
+      for (const std::int32_t j : slices.inputs)
+        position += context_.abstraction->inputs.index(u, at(j)) * slices.input_stride[at(j)];
+      ids_.push_back(slices.number(position));
+    }
+    const auto [found, is_new] = members_of_.try_emplace(ids_);
+    if (!is_new) return found->second;
+    ++reads_;
+    found->second.resize(near_.size());
+    const LaneRange lanes = engine_.all_lanes();
+    posts_.kernels().top_bits(posts_.minimum(ids_, lanes, 0), found->second.data(), lanes.size());
+    return found->second;
   }
 
   const AnalysisContext& context_;
-  const UniformGrid& grid_;
-  const CellSet& invariant_;
+  const Controller& controller_;
+  const RowEngine& engine_;
+  const Projections& projections_;
   const SafeSides& sides_;
-  CellPosts posts_;
-  std::int64_t last_ = 0;
+  PostReader<Level> posts_;
+  std::vector<Word> asked_;
+  std::vector<Word> near_;
+  std::vector<Word> leaving_;
+  std::vector<Word> members_;
+  std::vector<std::vector<std::vector<Word>>> by_part_;  ///< [side][part] leaving cells; empty: not known
+  std::map<std::vector<std::uint32_t>, std::vector<Word>> members_of_;  ///< by the numbers of the slices
+  std::vector<std::uint32_t> ids_;
+  std::int64_t unit_ = -1;  ///< that the reader was entered for
+  std::int64_t rows_ = 0;
+  std::int64_t reads_ = 0;
 };
 
-/// Removes the cells from which some joint input leaves, in the rows owned.
-void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) {
-  const AnalysisContext& context = answers.context;
-  const SafeSides sides(context);
-  std::vector<std::unique_ptr<LeavingInput>> inputs;
-  for (int w = 0; w < team.size(); ++w) inputs.push_back(std::make_unique<LeavingInput>(answers, sides));
-  const RowEngine& engine = *context.engine;
-  for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
-    LeavingInput& input = *inputs[at(worker)];
-    std::vector<Word> near(engine.row_words());
-    for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-      const MutableRow row = cells.row(place.row);
-      if (!any_set(row)) continue;
-      sides.find_near(place, row, near);
-      for_each_bit(near, [&](std::int64_t lane) {
-        const std::int64_t x = place.row * engine.row_length() + lane;
-        if ((context.over && context.over->test(x)) || !input.is_at(x)) return;
-        row[at(lane / CellSet::kWordBits)] &= ~(Word{1} << (lane % CellSet::kWordBits));
-      });
+/// Takes the cells out from which some joint input leaves, in the rows owned.
+void take_out_leaving(const Answers& answers, const Projections& projections, ThreadTeam& team,
+                      CellSet& cells, LeavingCounts& counts) {
+  const RowEngine& engine = *answers.context.engine;
+  const SafeSides sides(answers.context, cells, team);
+  answers.get<GoingOn>().controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::deque<LeavingRows<Level>> workers;
+    for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
+    for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
+      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
+        if (any_set(cells.row(place.row))) workers[at(worker)].take_out(place, cells.row(place.row));
+      }
+    });
+    for (const LeavingRows<Level>& worker : workers) {
+      counts.rows_near += worker.rows();
+      counts.rows_read += worker.reads();
     }
   });
 }
@@ -221,25 +186,39 @@ bool has_safe_side(const ProblemSpec& spec) {
   });
 }
 
-std::int64_t count_leaving_cells(const Answers& answers, const Projections& projections,
-                                 const DelayLayers& layers, const WaveWatch& watch, ThreadTeam& team) {
+LeavingCounts count_leaving_cells(const Answers& answers, const Projections& projections,
+                                  const DelayLayers& layers, const WaveWatch& watch, ThreadTeam& team) {
   const AnalysisContext& context = answers.context;
+  const RowEngine& engine = *context.engine;
+  const auto count = [&](const CellSet& set) {
+    const RowShare::Range own = own_rows(engine.share(), set.rows());
+    return sum_of_all(engine.share(), set.count(own.begin, own.end));
+  };
+  LeavingCounts counts;
   CellSet cells = layers.layers_of.top_cells(team);
-  take_out_leaving(answers, team, cells);
+  const std::int64_t unbounded = layers.sizes.back();
+  take_out_leaving(answers, projections, team, cells, counts);
+  for (std::int64_t* rows : {&counts.rows_near, &counts.rows_read}) *rows = sum_of_all(engine.share(), *rows);
+  const std::int64_t staying = count(cells);
+  counts.cells = unbounded - staying;
+  // Where no joint input leaves, or nothing is left, there is nothing to spread.
+  if (counts.cells == 0 || staying == context.over_cells) return counts;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
-    return std::make_unique<IndependentActions<Level>>(projections, invariant, team.size());
+    return std::make_unique<IndependentActions<Level>>(projections, invariant, team.size(),
+                                                       IndependentActions<Level>::Tells::whether);
   };
   const LevelProblem problem{.spared = context.over_or_null(),
                              .equal = projections.equal_work(),
+                             .limit = 1,
                              .make8 = [&] { return make(std::uint8_t{}); },
                              .make16 = [&] { return make(std::uint16_t{}); },
                              .make32 = [&] { return make(std::uint32_t{}); }};
-  LevelMap start = first_levels(*context.engine, cells, problem.equal.tiles != nullptr, team);
-  WaveCounts counts;
-  const LevelMap steps = find_levels(*context.engine, *context.hull, problem,
-                                     {.step = watch.step, .resumed = &start}, team, counts);
-  return layers.sizes.back() - steps.histogram(team).top;
+  LevelMap start = first_levels(engine, cells, problem.equal.tiles != nullptr, team);
+  const LevelMap steps =
+      find_levels(engine, *context.hull, problem, {.step = watch.step, .resumed = &start}, team, counts.wave);
+  counts.cells = unbounded - steps.histogram(team).top;
+  return counts;
 }
 
 }  // namespace coordreq

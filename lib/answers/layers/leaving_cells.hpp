@@ -17,13 +17,14 @@ namespace coordreq {
 /// that ends the task are in Y.
 ///
 /// In Z_F IND_C(x) = C(x): each of its joint inputs leads into Z_F, a part of K, so that it is in C(x). So
-/// single joint inputs are looked at, at cells near such sides, and the ordinary wave finds Y. Finite levels
-/// of the wave count steps until a run can have left.
+/// where every joint input is in C(x) all cells near such a side leave; in other rows the joint inputs that
+/// leave are read, a row at a time. Then a wave that asks no more than
+/// whether a cell leaves finds Y.
 /// @param projections of the partition, which has two classes or more
 /// @param layers of the partition, with F; @pre unchecked: no controller file, which makes IND_C(x) larger
-///   than C(x) Cost: at most about a sweep of the layers, where nothing leaves. Together.
-[[nodiscard]] std::int64_t count_leaving_cells(const Answers& answers, const Projections& projections,
-                                               const DelayLayers& layers, const WaveWatch& watch,
-                                               ThreadTeam& team);
+///   than C(x). Cost: at most about a sweep of the layers over the rows of Z_F. Together.
+[[nodiscard]] LeavingCounts count_leaving_cells(const Answers& answers, const Projections& projections,
+                                                const DelayLayers& layers, const WaveWatch& watch,
+                                                ThreadTeam& team);
 
 }  // namespace coordreq
