@@ -35,8 +35,15 @@ class LeavingRows {
         asked_(engine_.row_words()),
         near_(engine_.row_words()),
         leaving_(engine_.row_words()),
-        members_(engine_.row_words()),
-        by_part_(sides.size()) {}
+        members_(engine_.row_words()) {
+    std::size_t parts = 0;
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+      first_part_.push_back(parts);
+      parts += sides.parts(side);
+    }
+    is_known_.resize(parts);
+    by_part_.resize(parts * engine_.row_words());
+  }
 
   /// Takes the cells out of the row from which some joint input of C(x) leaves.
   void take_out(const RowPlace& place, MutableRow row) {
@@ -66,8 +73,7 @@ class LeavingRows {
 
   /// Keeps of near_ the cells from which a joint input of C(x) leaves.
   void keep_admissible(const RowPlace& place) {
-    for (std::vector<std::vector<Word>>& parts : by_part_) parts.clear();
-    for (std::size_t side = 0; side < sides_.size(); ++side) by_part_[side].resize(sides_.parts(side));
+    std::fill(is_known_.begin(), is_known_.end(), 0);
     members_of_.clear();
     const std::int64_t unit = place.row / engine_.unit_rows();
     if (unit != unit_) posts_.enter();
@@ -86,12 +92,10 @@ class LeavingRows {
   bool find_leaving(const RowPlace& place, std::int64_t u) {
     std::fill(leaving_.begin(), leaving_.end(), 0);
     for (std::size_t side = 0; side < sides_.size(); ++side) {
-      const std::size_t part = sides_.part_of(side, u);
-      std::vector<Word>& cells = by_part_[side][part];
-      if (cells.empty()) {
-        cells.resize(near_.size());
-        sides_.find_leaving(side, part, place, near_, cells);
-      }
+      const std::size_t part = sides_.part_of(side, u), number = first_part_[side] + part;
+      const MutableRow cells(by_part_.data() + number * near_.size(), near_.size());
+      if (is_known_[number] == 0) sides_.find_leaving(side, part, place, near_, cells);
+      is_known_[number] = 1;
       for (std::size_t w = 0; w < leaving_.size(); ++w) leaving_[w] |= cells[w] & asked_[w];
     }
     if (const PairTable* const allow = context_.pairs.admissible(); allow != nullptr && any_set(leaving_)) {
@@ -139,7 +143,9 @@ class LeavingRows {
   std::vector<Word> near_;
   std::vector<Word> leaving_;
   std::vector<Word> members_;
-  std::vector<std::vector<std::vector<Word>>> by_part_;  ///< [side][part] leaving cells; empty: not known
+  std::vector<std::size_t> first_part_;  ///< [side] number of its first part among those of all sides
+  std::vector<std::uint8_t> is_known_;   ///< [part] whether its leaving cells are known in this row
+  std::vector<Word> by_part_;            ///< [part * words] these cells
   std::map<std::vector<std::uint32_t>, std::vector<Word>> members_of_;  ///< by the numbers of the slices
   std::vector<std::uint32_t> ids_;
   std::int64_t unit_ = -1;  ///< that the reader was entered for

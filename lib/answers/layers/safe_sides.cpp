@@ -63,8 +63,16 @@ void SafeSides::find_leaving(std::size_t side, std::size_t part, const RowPlace&
       std::copy(cells.begin(), cells.end(), result.begin());
     return;
   }
+  const TransitionTable& table = abstraction_.tables[own.dimension];
+  std::vector<std::int64_t> inputs(abstraction_.inputs.size()), states(grid_.size());
+  for (std::size_t j = 0; j < inputs.size(); ++j) inputs[j] = abstraction_.inputs.index(u, j);
+  for (std::size_t i = 0; i < states.size(); ++i) states[i] = grid_.index(first, i);
+  // Along rows of one dimension nothing but its index changes.
+  const bool is_simple = grid_.across() + 1 == grid_.size();
   for_each_bit(cells, [&](std::int64_t lane) {
-    if (passes(own.dimension, abstraction_.raw(own.dimension, first + lane, u)))
+    if (is_simple) states.back() = lane;
+    const auto state = [&](std::size_t i) { return is_simple ? states[i] : grid_.index(first + lane, i); };
+    if (passes(own.dimension, table.range(own.dimension, state, [&](std::size_t j) { return inputs[j]; })))
       set_lane(lane, result.data());
   });
 }
