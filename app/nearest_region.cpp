@@ -49,12 +49,12 @@ Json nearest_region(const Json& requirement, const ResultsReader& results) {
                                  .given = {}};
       for (std::size_t j = 0; j < grid.size(); ++j)
         if (j != i) question.given.push_back({j, worst[j]});
-      const std::vector<FrontierCorner> corners = tolerance_frontier(results, question);
-      if (corners.empty()) continue;
-      const std::int64_t distance = std::abs(corners.front().front() - worst[i]);
+      const Tolerance tolerance = find_tolerance(results, question);
+      if (tolerance.corners.empty()) continue;
+      const std::int64_t distance = std::abs(tolerance.corners.front().front() - worst[i]);
       if (distance >= least) continue;
       least = distance;
-      const Json answer = require_json(results, question, corners);
+      const Json answer = require_json(results, question, tolerance);
       found = {{"state", answer["over"][0]["state"]},
                {"best", answer["over"][0]["best"]},
                {"value", answer["corners"][0][0]}};

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "cell/state_text.hpp"
 #include "numeric/rational.hpp"
+#include "spec/time_text.hpp"
 
 namespace coordreq {
 
@@ -34,6 +35,9 @@ std::string file_name(const std::string& text, const std::string& option) {
 
 double seconds(const std::string& text, const std::string& option) {
   constexpr double kMost = 1e9;
+  if (const std::optional<Rational> time = time_in(text, "s");
+      time && *time >= 0 && *time <= Rational(1'000'000'000))
+    return nearest_double(*time);
   double seconds = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   const bool is_whole = error == std::errc() && end == text.data() + text.size();

@@ -56,6 +56,33 @@ std::string best_ends_text(const Json& found) {
   return fmt::format("{}", fmt::join(ends, ", "));
 }
 
+/// "T1 from 18.5 to 22.25 degC"; an end of the domain means any value: "p1 from 2.5 m on".
+std::string interval_text(const Json& entry, const Json& interval) {
+  const bool is_large_best = entry["best"] == "large";
+  const Json& lower_end = entry[is_large_best ? "worst_value" : "best_value"];
+  const Json& upper_end = entry[is_large_best ? "best_value" : "worst_value"];
+  const bool has_lower = interval[0] != lower_end, has_upper = interval[1] != upper_end;
+  const std::string unit = text_of(entry["unit"]);
+  const std::string behind = unit.empty() ? "" : " " + printable(unit);
+  const std::string name = text_of(entry["state"]);
+  const auto from = interval[0].get<double>(), to = interval[1].get<double>();
+  if (!has_lower && !has_upper)
+    return fmt::format("{} from {:.6g}{} on, all of the domain", name, from, behind);
+  if (!has_upper) return fmt::format("{} from {:.6g}{} on", name, from, behind);
+  if (!has_lower) return fmt::format("{} up to {:.6g}{}", name, to, behind);
+  return fmt::format("{} from {:.6g} to {:.6g}{}", name, from, to, behind);
+}
+
+/// "a delay of at least 2 steps (2 s)".
+std::string limit_text(const Json& found) {
+  const RequirementTraits& kind = requirement_traits(text_of(found["kind"]));
+  const std::string value = words_of(kind.value);
+  const std::string article = value.front() == 'a' ? "an" : "a";
+  const Json& limit = found[kind.value];
+  return fmt::format("{} {} of at {} {}", article, value, kind.is_upper_limit ? "most" : "least",
+                     kind.is_probability ? probability_text(limit) : duration(limit, found));
+}
+
 /// "x1 from -0.995 m", of all of the domain.
 bool is_everywhere(const Json& found) {
   const Json& over = found["over"];
@@ -69,15 +96,17 @@ bool is_everywhere(const Json& found) {
 }  // namespace
 
 Json require_json(const ResultsReader& results, const ToleranceQuestion& question,
-                  const std::vector<FrontierCorner>& corners) {
+                  const Tolerance& tolerance) {
   const ProblemSpec& spec = results.spec();
   Json json = {{"name", spec.name},
                {"results", results.path()},
                {"guarantee", results.attributes().guarantee},
                {"partition", results.partitions()[question.partition].name},
                {"period", nearest_double(spec.dynamics.period)},
-               {"period_unit", spec.dynamics.unit},
-               {"delay", question.steps}};
+               {"period_unit", spec.dynamics.unit}};
+  const RequirementTraits& kind = traits(question.kind);
+  json[kind.value] = kind.is_probability ? Json(question.risk) : Json(question.steps);
+  json["kind"] = kind.key;
   json["over"] = Json::array();
   for (const ToleranceQuestion::Over& over : question.over) json["over"].push_back(over_json(results, over));
   json["given"] = Json::object();
@@ -92,34 +121,56 @@ Json require_json(const ResultsReader& results, const ToleranceQuestion& questio
   for (std::size_t i = 0; i < is_named.size(); ++i)
     if (!is_named[i]) json["whatever"].push_back(results.grid()[i].name);
   json["corners"] = Json::array();
-  for (const FrontierCorner& corner : corners) {
+  for (const FrontierCorner& corner : tolerance.corners) {
     Json& values = json["corners"].emplace_back(Json::array());
     for (std::size_t i = 0; i < corner.size(); ++i) {
       const ToleranceQuestion::Over& over = question.over[i];
       values.push_back(worst_value(results.grid()[over.state], corner[i], over.is_large_best));
     }
   }
+  if (question.over.size() > 1) return json;
+  json["intervals"] = Json::array();
+  const GridDimension& dimension = results.grid()[question.over.front().state];
+  for (const auto& [first, last] : tolerance.intervals)
+    json["intervals"].push_back({worst_value(dimension, first, true), worst_value(dimension, last, false)});
   return json;
 }
 
-std::string require_text(const Json& found) {
+std::string require_text(const Json& found, bool is_one_sided) {
   Facts facts;
   if (!found["given"].empty()) facts.emplace_back("given the cell of", values_text(found["given"]));
   if (!found["whatever"].empty())
     facts.emplace_back("whatever",
                        fmt::format("{}", fmt::join(found["whatever"].get<std::vector<std::string>>(), ", ")));
   facts.emplace_back("guarantee", guarantee_text(text_of(found["guarantee"])));
-  if (found["corners"].empty())
-    facts.emplace_back("tolerated", fmt::format("not even at the best end, {}", best_ends_text(found)));
-  for (const Json& corner : found["corners"]) {
+  const bool has_intervals = found.contains("intervals");
+  if (has_intervals && !is_one_sided) {
+    if (found["intervals"].empty()) facts.emplace_back("tolerated", "nowhere");
+    for (const Json& interval : found["intervals"])
+      facts.emplace_back("tolerated", interval_text(found["over"][0], interval));
+  } else if (found["corners"].empty()) {
+    std::string text = fmt::format("not even at the best end, {}", best_ends_text(found));
+    if (has_intervals && !found["intervals"].empty())
+      text += "; but " + interval_text(found["over"][0], found["intervals"][0]);
+    facts.emplace_back("tolerated", text);
+  }
+  for (std::size_t c = 0; (is_one_sided || !has_intervals) && c < found["corners"].size(); ++c) {
+    const Json& corner = found["corners"][c];
     facts.emplace_back("tolerated", fmt::format("{}{}", corner_text(found, corner),
                                                 is_everywhere(found) ? ", all of the domain" : ""));
   }
-  return fmt::format("{}, partition {}: a delay of at least {}\n{}", text_of(found["name"]),
-                     text_of(found["partition"]), duration(found["delay"], found), facts_text(facts));
+  return fmt::format("{}, partition {}: {}\n{}", text_of(found["name"]), text_of(found["partition"]),
+                     limit_text(found), facts_text(facts));
 }
 
-std::string require_csv(const Json& found) {
+std::string require_csv(const Json& found, bool is_one_sided) {
+  if (!is_one_sided && found.contains("intervals")) {
+    const std::string name = text_of(found["over"][0]["state"]);
+    std::string text = fmt::format("{0}_from,{0}_to\n", name);
+    for (const Json& interval : found["intervals"])
+      text += fmt::format("{},{}\n", interval[0].get<double>(), interval[1].get<double>());
+    return text;
+  }
   std::vector<std::string> names;
   for (const Json& entry : found["over"]) names.push_back(text_of(entry["state"]));
   std::string text = fmt::format("{}\n", fmt::join(names, ","));

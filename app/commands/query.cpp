@@ -11,6 +11,7 @@
 #include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/standard_streams.hpp"
+#include "app/steps_or_time.hpp"
 #include "cell/least_steps.hpp"
 #include "cell/simulate.hpp"
 #include "cell/state_query.hpp"
@@ -29,7 +30,7 @@ struct QueryOptions : CommonOptions {
   std::optional<std::string> at;  ///< none: states come from standard input
   bool extra = false;             ///< what names no state is passed through
   bool least = false;             ///< standard input has pairs of a fleet
-  std::optional<std::int32_t> at_least;
+  std::optional<std::string> at_least;
   std::string partition;
 };
 
@@ -70,10 +71,15 @@ ExitCode answer_least(const QueryOptions& options, const ResultsReader& results)
   const Field& field = results.field(kSilence);
   const std::size_t partition = find_partition(results.spec(), options.partition);
   IgnoredColumns ignored(options.quiet, "no state");
+  std::optional<std::int32_t> at_least;
+  if (options.at_least) {
+    at_least = static_cast<std::int32_t>(
+        steps_or_time(*options.at_least, results.spec().dynamics, "--at-least", {.least = 0}));
+  }
   const LeastSteps found =
-      least_steps(results, field, partition, std::cin, "standard input", options.at_least,
+      least_steps(results, field, partition, std::cin, "standard input", at_least,
                   [&ignored](const std::vector<std::string>& names) { ignored.tell(names, ""); });
-  print_answer(options, least_json(found, field, partition, options.at_least, results),
+  print_answer(options, least_json(found, field, partition, at_least, results),
                [&](const Json& json) { return least_text(json, field); });
   return found.below.value_or(0) > 0 ? ExitCode::requirement_failed : ExitCode::success;
 }
@@ -107,8 +113,8 @@ Run declare_query(Options& options) {
   options.flag(own->least, "--least",
                "The least silence of the pairs of a fleet on standard input; a column pair is a label");
   options.option(own->at_least, "--at-least", "N",
-                 "With --least: count pairs below N steps; exit code 1 if any is",
-                 WholeNumber<std::int32_t>{0, INT32_MAX - 1});
+                 "With --least: count pairs below N steps, or a time, e.g. 2s; exit code 1 if any is",
+                 as_typed);
   options.option(own->partition, "--partition", "NAME", "With --least: partition (default: the only one)",
                  as_typed);
   declare_common(options, *own);

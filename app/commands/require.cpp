@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "app/commands/all.hpp"
 #include "app/option_values.hpp"
 #include "app/print_answer.hpp"
 #include "app/require_report.hpp"
 #include "app/standard_streams.hpp"
+#include "app/steps_or_time.hpp"
 #include "app/text.hpp"
 #include "cell/simulate.hpp"
 #include "cell/state_text.hpp"
@@ -22,27 +25,71 @@ namespace coordreq {
 namespace {
 
 struct RequireOptions : CommonOptions {
-  std::string results, delay, over, best = "large", partition;
+  std::string results, over, partition;
+  std::vector<std::optional<std::string>> limits =
+      std::vector<std::optional<std::string>>(6);  ///< by kLimits
+  std::optional<std::string> best;
   NamedValues given;
   bool csv = false;
 };
 
-/// "4" steps, or "2 s", "2s": a time in the unit of the spec, rounded up to periods.
-std::int64_t steps_of(const std::string& text, const DynamicsSpec& dynamics) {
-  constexpr const char* kOption = "--delay";
-  constexpr std::int64_t kMost = INT32_MAX - 1;
-  const std::string unit = dynamics.unit;
-  const std::string expected = unit.empty()
-                                   ? "a number of steps"
-                                   : fmt::format("a number of steps, or a time as 2{}", printable(unit));
-  std::string number(trimmed(text));
-  const bool is_time = !unit.empty() && number.ends_with(unit) && number.size() > unit.size();
-  if (is_time) number = trimmed(number.substr(0, number.size() - unit.size()));
-  const std::optional<Rational> value = parse_decimal(number);
-  if (!value || *value <= 0 || (!is_time && !is_integer(*value))) fail_value(expected, text, kOption);
-  const Rational steps = is_time ? Rational(*value / dynamics.period) : *value;
-  if (steps > Rational(static_cast<long>(kMost))) fail_value(expected, text, kOption);
-  return ceil_to_int(steps);
+/// The limits that can be asked for, by their options.
+struct LimitOption {
+  RequirementKind kind;
+  const char* name;
+  const char* takes;
+  const char* description;
+};
+constexpr std::array kLimits = {
+    LimitOption{RequirementKind::min_delay, "--delay", "N",
+                "The silence to be tolerated: steps, or a time, e.g. 2s or 10min"},
+    LimitOption{RequirementKind::min_silence, "--silence", "N",
+                "The same by the communication-loss rule of the spec ('silence')"},
+    LimitOption{RequirementKind::min_blind_delay, "--blind", "N",
+                "The same for agents with their own observations only ('sees')"},
+    LimitOption{RequirementKind::min_approach_delay, "--approach", "N",
+                "The silence that costs no time on the way to the goal ('goal')"},
+    LimitOption{RequirementKind::max_arrival, "--arrival", "N",
+                "The steps, or the time, within which the goal can be forced ('goal')"},
+    LimitOption{RequirementKind::max_risk, "--risk", "P",
+                "The greatest probability to leave the invariance set within the horizon ('risk')"}};
+
+/// The limit that was asked for, of which there is one.
+std::pair<LimitOption, std::string> limit_of(const RequireOptions& options) {
+  std::optional<std::pair<LimitOption, std::string>> found;
+  for (std::size_t i = 0; i < kLimits.size(); ++i) {
+    if (!options.limits[i]) continue;
+    if (found)
+      throw UsageError(fmt::format("expected one limit, found {} too", found->first.name), kLimits[i].name);
+    found.emplace(kLimits[i], *options.limits[i]);
+  }
+  if (!found) throw UsageError("expected how much silence is to be tolerated", kLimits.front().name);
+  return *found;
+}
+
+double risk_of(const std::string& text, const char* option) {
+  const std::optional<Rational> value = parse_decimal(trimmed(text));
+  if (!value || *value < 0 || *value > 1) fail_value("a probability from 0 to 1", text, option);
+  return nearest_double(*value);
+}
+
+/// @throws UsageError if the results do not have what is asked for
+void set_limit(const RequireOptions& options, const ResultsReader& results, ToleranceQuestion& question) {
+  const auto [limit, text] = limit_of(options);
+  const RequirementTraits& kind = traits(limit.kind);
+  question.kind = limit.kind;
+  if (!results.has(path_of(limit.kind))) {
+    throw UsageError(fmt::format("the results have no {}, expected those of a spec with the key '{}'",
+                                 path_of(limit.kind), kind.needs),
+                     limit.name);
+  }
+  if (kind.is_probability) {
+    question.risk = risk_of(text, limit.name);
+  } else {
+    question.steps =
+        steps_or_time(text, results.spec().dynamics, limit.name,
+                      {.least = kind.is_upper_limit ? 0 : 1, .is_upper_limit = kind.is_upper_limit});
+  }
 }
 
 std::vector<ToleranceQuestion::Over> over_of(const RequireOptions& options, const ResultsReader& results) {
@@ -56,7 +103,8 @@ std::vector<ToleranceQuestion::Over> over_of(const RequireOptions& options, cons
   }
   if (over.size() > 2)
     throw UsageError(fmt::format("expected one state or two, found {}", over.size()), "--over");
-  const std::vector<std::string_view> words = split_at_commas(options.best);
+  const std::string all_words = options.best.value_or("large");
+  const std::vector<std::string_view> words = split_at_commas(all_words);
   if (words.size() != 1 && words.size() != over.size())
     throw UsageError("expected one word for each state of --over", "--best");
   const OneOf<bool> best{{{"large", true}, {"small", false}}};
@@ -84,21 +132,22 @@ std::vector<TableSelection::Slice> given_of(const RequireOptions& options, const
 
 ExitCode run(const RequireOptions& options) {
   if (options.csv && options.json) throw UsageError("expected --csv or --json, found both", "--csv");
-  if (options.delay.empty()) throw UsageError("expected how much silence is to be tolerated", "--delay");
+  static_cast<void>(limit_of(options));
   if (options.over.empty()) throw UsageError("expected the state that is sought", "--over");
   options.keep_to_memory();
   const ResultsReader results(options.results, options.max_memory);
-  ToleranceQuestion question{.partition = find_partition(results.spec(), options.partition),
-                             .steps = steps_of(options.delay, results.spec().dynamics)};
+  ToleranceQuestion question{.partition = find_partition(results.spec(), options.partition)};
+  set_limit(options, results, question);
   question.over = over_of(options, results);
   question.given = given_of(options, results, question.over);
   static_cast<void>(options.threads_for("reading needs", {.once = results.reading_bytes()}));
-  const Json found = require_json(results, question, tolerance_frontier(results, question));
+  const Json found = require_json(results, question, find_tolerance(results, question));
+  const bool is_one_sided = options.best.has_value();
   if (options.csv) {
-    write_output(require_csv(found));
+    write_output(require_csv(found, is_one_sided));
     return ExitCode::success;
   }
-  print_answer(options, found, require_text);
+  print_answer(options, found, [&](const Json& json) { return require_text(json, is_one_sided); });
   return ExitCode::success;
 }
 
@@ -107,16 +156,19 @@ ExitCode run(const RequireOptions& options) {
 Run declare_require(Options& options) {
   const auto own = std::make_shared<RequireOptions>();
   declare_results(options, own->results);
-  options.option(own->delay, "--delay", "N", "The silence to be tolerated: steps, or a time as 2s", as_typed);
+  for (std::size_t i = 0; i < kLimits.size(); ++i)
+    options.option(own->limits[i], kLimits[i].name, kLimits[i].takes, kLimits[i].description, as_typed);
   options.option(own->over, "--over", "STATES", "The state that is sought, or two with a comma between",
                  as_typed);
   options.option(own->given, "--given", "VALUES",
                  "Values of other states, as v1=1,v2=-1; of those left out every value counts", named_values);
-  options.option(own->best, "--best", "WORDS",
-                 "Which values are better, large or small; for two states perhaps two words (default: large)",
-                 as_typed);
+  options.option(
+      own->best, "--best", "WORDS",
+      "Which values are better, large or small: only the bound from which on, or up to which; for two "
+      "states perhaps two words (default: large; of one state all intervals)",
+      as_typed);
   options.option(own->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
-  options.flag(own->csv, "--csv", "A line for each corner of the region, as CSV");
+  options.flag(own->csv, "--csv", "A line for each interval, or corner of the region, as CSV");
   declare_common(options, *own, {.threads = false});
   return [own] { return run(*own); };
 }

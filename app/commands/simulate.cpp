@@ -9,6 +9,8 @@
 #include "app/option_values.hpp"
 #include "app/progress_display.hpp"
 #include "app/simulate_report.hpp"
+#include "app/steps_or_time.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -19,7 +21,7 @@ constexpr WholeNumber<std::int64_t> kCount{1, INT32_MAX - 1};
 struct SimulateOptions : CommonOptions {
   std::string results;
   bool starts_anywhere = false;
-  bool has_steps = false;
+  std::optional<std::string> steps, silent_steps;
   SimulationOptions simulation;
   ProgressOptions progress;
 };
@@ -43,7 +45,7 @@ void check_complete(const SimulateOptions& options) {
     throw UsageError("expected --from or --start, found both");
   if (!options.simulation.start && !options.starts_anywhere)
     throw UsageError("no start, expected --from NAME=VALUE,... or --start random");
-  if (!options.has_steps) throw UsageError("no number of steps, expected --steps N");
+  if (!options.steps) throw UsageError("no number of steps, expected --steps N");
 }
 
 Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& options,
@@ -85,6 +87,10 @@ ExitCode run(const SimulateOptions& own) {
   SimulationOptions options = own.simulation;
   own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
+  const DynamicsSpec& dynamics = results.spec().dynamics;
+  options.steps = steps_or_time(own.steps.value(), dynamics, "--steps");
+  if (own.silent_steps)
+    options.silent_steps = steps_or_time(*own.silent_steps, dynamics, "--silent", {.least = 0});
   const Simulation simulation = simulate_with_care(results, options, own);
   print_simulation(own, simulation, results, options);
   return simulation.failure() ? ExitCode::requirement_failed : ExitCode::success;
@@ -99,10 +105,7 @@ Run declare_simulate(Options& options) {
   options.option(simulation.start, "--from", "STATE", "State to start from, as x1=0.1,x2=0", as_typed);
   options.option(own->starts_anywhere, "--start", "random", "Start anywhere in the invariance set",
                  OneOf<bool>{{{"random", true}}});
-  options.option("--steps", "N", "Length of a run", [own = own.get()](const auto& text, const auto& option) {
-    own->simulation.steps = kCount(text, option);
-    own->has_steps = true;
-  });
+  options.option(own->steps, "--steps", "N", "Length of a run: steps, or a time, e.g. 10min", as_typed);
   options.option(simulation.runs, "--runs", "N", "Number of runs (default: 1)", kCount);
   options.option(simulation.seed, "--seed", "N", "Seed of all that is random (default: 1)",
                  WholeNumber<std::uint64_t>{0, UINT64_MAX});
@@ -125,10 +128,9 @@ Run declare_simulate(Options& options) {
       "--silent", "N",
       "Agents do for N steps what the spec tells silent ones, and then what comes after; alone: until S is "
       "left",
-      [&simulation](const auto& text, const auto& option) {
-        simulation.silent = true;
-        if (!text.empty())
-          simulation.silent_steps = WholeNumber<std::int64_t>{0, INT32_MAX - 1}(text, option);
+      [own = own.get()](const auto& text, const auto& /*option*/) {
+        own->simulation.silent = true;
+        if (!text.empty()) own->silent_steps = text;
       });
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);

@@ -2,24 +2,13 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/index.hpp"
 #include "base/requires.hpp"
 
 namespace coordreq {
 namespace {
-
-TableSelection selection_of(const ResultsReader& results, const ToleranceQuestion& question) {
-  TableSelection selection{.slices = question.given, .projections = {}, .partition = question.partition};
-  for (std::size_t i = 0; i < results.grid().size(); ++i) {
-    const auto is_over = [i](const ToleranceQuestion::Over& over) { return over.state == i; };
-    const auto is_given = [i](const TableSelection::Slice& slice) { return slice.dimension == i; };
-    if (std::none_of(question.over.begin(), question.over.end(), is_over) &&
-        std::none_of(question.given.begin(), question.given.end(), is_given))
-      selection.projections.push_back({i, false});
-  }
-  return selection;
-}
 
 /// Which pairs of values tolerate so much, by rank of each state: 0 is the best value. One state: the second
 /// has one value.
@@ -29,20 +18,29 @@ class Tolerated {
     for (const ToleranceQuestion::Over& over : question.over)
       counts_.push_back(results.grid()[over.state].count);
     counts_.resize(2, 1);
-    holds_.assign(static_cast<std::size_t>(counts_[0] * counts_[1]), false);
-    const CellTable table(results, selection_of(results, question));
+    holds_.assign(static_cast<std::size_t>(counts_[0] * counts_[1]), true);
+    const CellTable table(results,
+                          {.slices = question.given, .projections = {}, .partition = question.partition});
+    const std::string path = path_of(question.kind);
+    // Of a field over modes of the network the first column, that of the mode in which it begins.
     std::size_t column = 0;
-    while (table.columns()[column].field->path != "/delay") ++column;
-    std::vector<std::size_t> places;  // of the states asked about, in a row
-    for (const ToleranceQuestion::Over& over : question.over) {
-      const auto& kept = table.dimensions();
-      places.push_back(
-          static_cast<std::size_t>(std::find(kept.begin(), kept.end(), over.state) - kept.begin()));
-    }
+    while (table.columns()[column].field->path != path) ++column;
     table.for_each_row([&](const std::vector<std::int64_t>& index, const std::vector<std::int32_t>& values) {
-      const std::int64_t second = places.size() > 1 ? rank(1, index[places[1]]) : 0;
-      holds_[at(rank(0, index[places[0]]) * counts_[1] + second)] = values[column] >= question.steps;
+      if (keeps_limit(values[column])) return;
+      const std::int64_t second = question.over.size() > 1 ? rank(1, index[question.over[1].state]) : 0;
+      holds_[at(rank(0, index[question.over[0].state]) * counts_[1] + second)] = false;
     });
+  }
+
+  /// Runs of indices of the first state. @pre one state
+  [[nodiscard]] std::vector<std::pair<std::int64_t, std::int64_t>> runs() const {
+    std::vector<std::pair<std::int64_t, std::int64_t>> all;
+    for (std::int64_t k = 0; k < counts_[0]; ++k) {
+      if (!holds_[at(rank(0, k))]) continue;
+      if (all.empty() || all.back().second != k - 1) all.emplace_back(k, k);
+      all.back().second = k;
+    }
+    return all;
   }
 
   /// Ranks of the second state below this tolerate it, whatever better rank the first has.
@@ -64,6 +62,12 @@ class Tolerated {
   }
 
  private:
+  [[nodiscard]] bool keeps_limit(std::int32_t value) const {
+    const RequirementTraits& kind = traits(question_.kind);
+    if (kind.is_probability) return probability_of(value) <= question_.risk;
+    return kind.is_upper_limit ? 0 <= value && value <= question_.steps : value >= question_.steps;
+  }
+
   const ToleranceQuestion& question_;
   std::vector<std::int64_t> counts_;
   std::vector<bool> holds_;
@@ -79,9 +83,13 @@ class Tolerated {
 
 }  // namespace
 
-std::vector<FrontierCorner> tolerance_frontier(const ResultsReader& results,
-                                               const ToleranceQuestion& question) {
-  REQUIRES(are_all_different(question));
+std::string path_of(RequirementKind kind) {
+  REQUIRES(kind != RequirementKind::invariant);
+  return "/" + traits(kind).value;
+}
+
+Tolerance find_tolerance(const ResultsReader& results, const ToleranceQuestion& question) {
+  REQUIRES(are_all_different(question) && results.has(path_of(question.kind)));
   const Tolerated tolerated(results, question);
   const std::vector<std::int64_t> reach = tolerated.reach();
   std::vector<FrontierCorner> corners;
@@ -91,7 +99,13 @@ std::vector<FrontierCorner> tolerance_frontier(const ResultsReader& results,
     corners.push_back({tolerated.rank(0, static_cast<std::int64_t>(i))});
     if (question.over.size() > 1) corners.back().push_back(tolerated.rank(1, reach[i] - 1));
   }
-  return corners;
+  if (question.over.size() > 1) return {std::move(corners), {}};
+  return {std::move(corners), tolerated.runs()};
+}
+
+std::vector<FrontierCorner> tolerance_frontier(const ResultsReader& results,
+                                               const ToleranceQuestion& question) {
+  return find_tolerance(results, question).corners;
 }
 
 }  // namespace coordreq

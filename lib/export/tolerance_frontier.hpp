@@ -2,17 +2,23 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "export/cell_table.hpp"
 #include "results/results_reader.hpp"
+#include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 
-/// The question from which values of one or two states on so much silence is tolerated.
+/// The question for which values of one or two states so much silence is tolerated, or another limit kept.
 struct ToleranceQuestion {
   std::size_t partition = 0;
-  std::int64_t steps = 1;  ///< that the delay has to be at least
+  /// What has to keep the limit: `steps` at least, or at most if it is an upper limit; a probability `risk`
+  /// at most. Cells outside of K, or without a number of steps, keep none.
+  RequirementKind kind = RequirementKind::min_delay;
+  std::int64_t steps = 1;
+  double risk = 0;
   /// A state whose values are sought, and whether larger ones are better.
   struct Over {
     std::size_t state = 0;
@@ -22,6 +28,9 @@ struct ToleranceQuestion {
   std::vector<TableSelection::Slice> given;  ///< cells of other states; of those not named every value counts
 };
 
+/// Path of the field that requirements of a kind ask about. @pre not of `invariant`
+[[nodiscard]] std::string path_of(RequirementKind kind);
+
 /// Indices of the states asked about: in the cell of these and in all that are better in each state, the
 /// delay is as large as asked for, whatever the states are that were not given.
 using FrontierCorner = std::vector<std::int64_t>;
@@ -29,7 +38,15 @@ using FrontierCorner = std::vector<std::int64_t>;
 /// The least such region: its corners, none of which lies in the region of another, by the first state, the
 /// worst value first. Of one state at most one; none: not even in the best cell. Cells outside of K tolerate
 /// nothing. Memory: a bit for each pair of values, and what CellTable takes.
-/// @pre the states of a question are all different
+struct Tolerance {
+  std::vector<FrontierCorner> corners;
+  /// Of one state: all values that are tolerated, as runs of indices first, ..., last, ascending.
+  std::vector<std::pair<std::int64_t, std::int64_t>> intervals;
+};
+
+/// @pre the states of a question are all different; the results have path_of() the kind
+[[nodiscard]] Tolerance find_tolerance(const ResultsReader& results, const ToleranceQuestion& question);
+/// The corners alone.
 [[nodiscard]] std::vector<FrontierCorner> tolerance_frontier(const ResultsReader& results,
                                                              const ToleranceQuestion& question);
 

@@ -109,7 +109,7 @@ void read_horizon(const Scope& scope, const Node& object, const Rational& period
     check_horizon(coordination, object["horizon"].pointer());
   } else if (object.has("horizon_time")) {
     const Node time = object["horizon_time"];
-    coordination.horizon_time = scope.number(time);
+    coordination.horizon_time = scope.time(time);
     coordination.horizon = read_steps_of_time(scope, time, period);
     check_horizon(coordination, time.pointer());
   }

@@ -34,7 +34,7 @@ RiskSpec read_risk(const Scope& scope, const Node& root, const Rational& period)
     return risk;
   }
   const Node time = object["horizon_time"];
-  risk.horizon_time = scope.number(time);
+  risk.horizon_time = scope.time(time);
   risk.horizon = read_steps_of_time(scope, time, period);
   if (risk.horizon == 0) throw SpecError("expected a time > 0, found 0", time.pointer());
   return risk;

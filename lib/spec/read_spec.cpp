@@ -152,7 +152,7 @@ std::int64_t read_integer(const Node& node) {
 std::int64_t read_steps_of_time(const Scope& scope, const Node& time, const Rational& period,
                                 StepRounding rounding) {
   constexpr std::int64_t kMostSteps = 2'147'483'646;
-  const Rational value = scope.number(time);
+  const Rational value = scope.time(time);
   if (value < 0) throw SpecError("expected a time >= 0, found " + to_text(value), time.pointer());
   const Rational periods = value / period;
   const std::int64_t steps = rounding == StepRounding::up ? ceil_to_int(periods) : floor_to_int(periods);

@@ -182,7 +182,7 @@ std::vector<AgentSpec> read_agents(const Scope& scope, const Node& root,
 
 Rational read_period(const Scope& scope, const Node& root) {
   const Node node = root["dynamics"]["period"];
-  Rational period = scope.number(node);
+  Rational period = scope.time(node);
   if (period <= 0) throw SpecError("expected a period > 0, found " + to_text(period), node.pointer());
   return period;
 }

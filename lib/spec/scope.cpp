@@ -10,6 +10,7 @@
 #include "spec/dependency_order.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
+#include "spec/time_text.hpp"
 #include "spec/unit_value.hpp"
 #include "spec/wording.hpp"
 
@@ -86,6 +87,7 @@ struct Scope::MentionGraph {
 Scope::Scope(const Node& root, MemoryReader& memory) : names_(dataset_names(root)) {
   add_names(root, memory);
   for (const Node& state : root.elements("states")) is_box_.push_back(!state.flag("discrete"));
+  if (root["dynamics"].has("unit")) time_unit_ = root["dynamics"]["unit"].text();
   centres_ = read_abstraction(root).safe == Membership::center;
   if (root.has("constants")) evaluate_constants(root["constants"]);
   definitions_ = Definitions(static_cast<std::uint32_t>(slot_names_.size()));
@@ -213,6 +215,22 @@ Rational Scope::number(const Node& node) const {
     throw SpecError("number with an exponent beyond 5000: " + quote_text(node.token()), node.pointer());
   check_size(*value, node.pointer());
   return *value;
+}
+
+Rational Scope::time(const Node& node) const {
+  if (node.is_text()) {
+    if (const std::optional<Rational> value = time_in(node.text(), time_unit_)) {
+      check_size(*value, node.pointer());
+      return *value;
+    }
+    if (time_in(node.text(), "s")) {
+      throw SpecError(
+          fmt::format("found {}, expected a number: \"unit\" of \"dynamics\" is {}", quote_text(node.text()),
+                      time_unit_.empty() ? "not given" : quote_text(time_unit_)),
+          node.pointer());
+    }
+  }
+  return number(node);
 }
 
 namespace {

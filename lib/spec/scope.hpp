@@ -33,6 +33,10 @@ class Scope {
   /// @throws SpecError if it has none that is finite as a double, or one of more than 4096 bits
   [[nodiscard]] Rational number(const JsonDocument::Node& node) const;
 
+  /// The same of a time in the unit of the spec, `dynamics.unit`; also "500 ms", "10min", where that is a
+  /// unit of time. @throws SpecError
+  [[nodiscard]] Rational time(const JsonDocument::Node& node) const;
+
   /// The linked expression in a string. Conditions may name memories, numbers may not.
   /// @throws SpecError for errors in it, and if it depends on more than `over`
   [[nodiscard]] Program expression(const JsonDocument::Node& node, ExpectedType expected, Over over) const;
@@ -58,6 +62,7 @@ class Scope {
   [[nodiscard]] Program seen_as(const Program& program, std::uint32_t first) const;
 
   NameTable names_;
+  std::string time_unit_;     ///< as written; empty if none was given
   std::vector<bool> is_box_;  ///< [slot] of the spec's own states: not discrete
   std::uint32_t inputs_end_ = 0;
   bool centres_ = false;  ///< memories are asked of the centres of cells

@@ -1,7 +1,7 @@
-"""From which values on so much silence is tolerated: what 'coordreq require RESULTS ... --json' printed
+"""For which values so much silence is tolerated: what 'coordreq require RESULTS ... --json' printed
 
-Of one state a bar over its domain, of two the plane of both: coloured where the delay is at least what was asked for,
-whatever the states are that were not given; white where it is less in some cell, or not known to be more."""
+Of one state a bar over its domain, coloured where what was asked for holds; of two the plane of both, coloured from which values
+on it holds. It holds whatever the states are that were not given; white where it does not in some cell, or is not known to."""
 
 import json
 from dataclasses import dataclass
@@ -19,6 +19,7 @@ class Required:
     labels: list  # of one state or two
     ends: list  # of the domain: (worst value, best value) of each
     corners: list  # the worst values of each region that tolerates it
+    intervals: list  # of one state: from, to
 
 
 def add_arguments(_parser):
@@ -29,19 +30,26 @@ def prepare(arguments):
     found = _read(arguments.file)
     try:
         over = found["over"]
-        unit, steps = found["period_unit"], found["delay"]
-        time = f" ({steps * found['period']:g} {unit})" if unit else ""
+        kind = found["kind"]
+        value = kind.split("_", 1)[1]
+        limit = f"{found[value]:g}" if value == "risk" else _steps(found[value], found["period"], found["period_unit"])
         notes = [f"{name} = {value:g}" for name, value in found["given"].items()]
         notes += [f"any {name}" for name in found["whatever"]]
         return Required(
-            f"{found['name']}, {found['partition']}: delay of at least {steps} step{'' if steps == 1 else 's'}{time}",
+            f"{found['name']}, {found['partition']}: {value.replace('_', ' ')} of at {'most' if kind.startswith('max') else 'least'} {limit}",
             ", ".join(notes),
             [f"{own['state']} [{own['unit']}]" if own["unit"] else own["state"] for own in over],
             [(own["worst_value"], own["best_value"]) for own in over],
             [tuple(corner) for corner in found["corners"]],
+            [tuple(interval) for interval in found["intervals"]] if len(over) == 1 else [],
         )
     except (KeyError, TypeError) as error:
         raise _not_ours(arguments.file) from error
+
+
+def _steps(steps, period, unit):
+    time = f" ({steps * period:g} {unit})" if unit else ""
+    return f"{steps} step{'' if steps == 1 else 's'}{time}"
 
 
 def _read(path):
@@ -63,12 +71,14 @@ def draw(required, size=None):
     figure = style.new_figure(size, (5.2, 4.4) if is_plane else (6.4, 1.9))
     axes = figure.subplots()
     ends = [*required.ends, (0, 1)][:2]
-    for corner in required.corners:
-        worst = [*corner, 0][:2]
-        sides = [best - value for value, (_, best) in zip(worst, ends)]
-        axes.add_patch(Rectangle(worst, *sides, color=style.KINDS[2], linewidth=0))
-    if not required.corners:
-        axes.text(0.5, 0.5, "nowhere, not even at the best end", transform=axes.transAxes, ha="center", va="center")
+    for corner in required.corners if is_plane else []:
+        sides = [best - value for value, (_, best) in zip(corner, ends)]
+        axes.add_patch(Rectangle(corner, *sides, color=style.KINDS[2], linewidth=0))
+    for low, high in required.intervals:
+        axes.add_patch(Rectangle((low, 0), high - low, 1, color=style.KINDS[2], linewidth=0))
+    if not (required.corners if is_plane else required.intervals):
+        words = "nowhere, not even at the best end" if is_plane else "nowhere"
+        axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center")
     axes.set_xlim(sorted(ends[0]))
     axes.set_ylim(sorted(ends[1]))
     axes.set_xlabel(style.plain(required.labels[0]))
@@ -77,5 +87,5 @@ def draw(required, size=None):
     else:
         axes.set_yticks([])
     style.add_title(figure, required.title, required.note)
-    style.legend_below(figure, [(style.KINDS[2], "tolerated"), (style.FREE, "not everywhere beyond")])
+    style.legend_below(figure, [(style.KINDS[2], "tolerated"), (style.FREE, "not everywhere beyond" if is_plane else "not everywhere")])
     return figure

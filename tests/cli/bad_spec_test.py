@@ -18,9 +18,32 @@ def state(**changes):
 
 class Cases(Case):
     def test_a_number_with_its_unit(self):
-        for text in ("2 s", "2s", "30 km/h", "0.5 m/s^2"):
+        for text in ("30 km/h", "0.5 m/s^2"):
             self.write("spec.json", spec_with(dynamics=dict(SPEC["dynamics"], period=text)))
             message = f"expected a number, found '{text}': units are separate, in \"unit\" (/dynamics/period)"
+            self.assert_fails(3, message, "validate", "spec.json")
+        self.write("spec.json", spec_with(states=state(upper="4 m")))
+        message = "expected a number, found '4 m': units are separate, in \"unit\" (/states/0/upper)"
+        self.assert_fails(3, message, "validate", "spec.json")
+
+    def test_times_have_units_of_time(self):
+        """A time is one in any unit of time, where the spec has such a unit."""
+        requirement = {"name": "r", "where": "x == 2 and y == 2"}
+        for period, least, steps in (("500ms", "1 s", 2), ("0.5 s", "1500 ms", 3), ("0.5", "0.025min", 3), (0.5, "0.1 s", 1)):
+            dynamics = dict(SPEC["dynamics"], period=period)
+            self.write("spec.json", spec_with(dynamics=dynamics, requirements=[dict(requirement, min_delay_time=least)]))
+            result = self.run_program("analyze", "spec.json", "--json", "-o", "out.h5")
+            self.assertIn(result.returncode, (0, 1), result.stderr)
+            found = json.loads(result.stdout)
+            self.assertEqual((found["period"], found["requirements"][0]["min_delay"]), (0.5, steps), (period, least))
+        hours = dict(SPEC["dynamics"], period="10 min", unit="h")
+        self.write("spec.json", spec_with(dynamics=hours))
+        self.run_program("analyze", "spec.json", "-o", "out.h5", "--quiet")
+        self.assertAlmostEqual(json.loads(self.run_program("info", "out.h5", "--json").stdout)["period"], 1 / 6)
+        for unit, end in ((None, "not given"), ("round", "'round'")):
+            own = {key: value for key, value in dict(SPEC["dynamics"], unit=unit, period="500ms").items() if value is not None}
+            self.write("spec.json", spec_with(dynamics=own))
+            message = f"found '500ms', expected a number: \"unit\" of \"dynamics\" is {end} (/dynamics/period)"
             self.assert_fails(3, message, "validate", "spec.json")
 
     def assert_rejected(self, message, spec, code=3):

@@ -375,12 +375,19 @@ $""",
             *("--start", "random", "--steps", "3"),
         )
 
+    def test_a_length_in_time(self):
+        self.results(SPEC)
+        for text, steps in (("3", 3), ("1.5s", 3), ("1500 ms", 3), ("1.2s", 3), ("0.05min", 6)):
+            result = self.run_program("simulate", "r.h5", "--from", "x=1,y=1", "--steps", text, "--json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(json.loads(result.stdout)["steps"], steps, text)
+
     def test_refusals_of_options(self):
         self.results(SPEC)
         self.assert_refused("no number of steps, expected --steps N", *START)
         for text in ("0", "x", "-1", "2147483647"):
             self.assert_refused(
-                f"expected a whole number from 1 to 2147483646, found '{text}' (--steps)",
+                f"expected a number of steps, or a time as 2s, found '{text}' (--steps)",
                 *START,
                 f"--steps={text}",
             )
