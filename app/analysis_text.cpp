@@ -9,6 +9,7 @@
 #include "answers/plan.hpp"
 #include "app/answers/all.hpp"
 #include "app/guarantee_line.hpp"
+#include "app/headline.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
 #include "base/requires.hpp"
@@ -34,38 +35,6 @@ std::string sizes(const Json& summary, const ProblemSpec& spec) {
   return fmt::format("{}: {} cells, {} joint inputs\n", text_of(summary["name"]),
                      product(points, number_of(summary["cells"])),
                      product(values, number_of(summary["joint_inputs"])));
-}
-
-bool is_joint(const Json& class_name) {
-  return class_name.get<std::string>().find('+') != std::string::npos;
-}
-
-/// One sentence: for how long the classes can do without coordination, within which agents go on
-/// coordinating.
-std::string meaning(const Json& partition, const Json& summary) {
-  const Json& classes = partition["classes"];
-  const bool alone = std::none_of(classes.begin(), classes.end(), is_joint);
-  const char* const who = alone ? "agents" : "classes";
-  const char* const without = alone ? "without coordination" : "without coordination between classes";
-  if (partition["truncated"]) {
-    const auto limit = static_cast<std::int64_t>(partition["layers"].size()) - 1;
-    const std::int64_t last = number_of(partition["layers"].back());
-    return fmt::format("Stopped at max_delay: {} {} {} {}, perhaps more.", cells(last),
-                       last == 1 ? "allows" : "allow", duration(limit, summary), without);
-  }
-  // The layers shrink strictly up to F, so the largest finite delay is F - 1.
-  const std::int64_t largest = number_of(partition["F"]) - 1;
-  const std::int64_t unbounded = number_of(partition["fixed_point"]);
-  const char* const are = largest == 1 ? "is" : "are";
-  if (unbounded == 0) {
-    if (largest == 0) return fmt::format("From no state is even one step {} safe.", without);
-    return fmt::format("From the best state, {} {} {} safe.", duration(largest, summary), without, are);
-  }
-  if (!alone && classes.size() == 1)
-    return "All agents coordinate within every step, so every delay is unbounded.";
-  if (largest < 0) return fmt::format("The {} never need to coordinate: every delay is unbounded.", who);
-  return fmt::format("From {} the {} never need to coordinate; from the best of the others, {} {} {} safe.",
-                     cells(unbounded), who, duration(largest, summary), without, are);
 }
 
 /// In how many cells D steps are more than they can do without, and in how many they are all of it, or more.
@@ -122,12 +91,12 @@ std::string edge_hint(const Json& partition) {
     sides.push_back(fmt::format("{} = {:.6g}", text_of(entry["state"]), entry["value"].get<double>()));
   if (sides.empty()) return "";
   return fmt::format(
-      "\n  All best states lie at the edge of the grid ({}): a larger domain may tolerate more.",
+      "  All best states lie at the edge of the grid ({}): a larger domain may tolerate more.\n",
       fmt::join(sides, ", "));
 }
 
 /// "873 cells, of these 140 because they leave through a safe side".
-std::string for_ever_text(const Json& partition) {
+std::string unbounded_delay_text(const Json& partition) {
   if (partition["truncated"]) return "unknown";
   const std::int64_t all = number_of(partition["fixed_point"]);
   const Json& leaving = partition["leaving"];
@@ -140,23 +109,30 @@ std::string unbounded_cells(const Json& partition) {
   return partition["truncated"] ? "unknown" : cells(partition["fixed_point"]);
 }
 
-std::string partition_text(const Json& partition, const Json& summary,
-                           const std::vector<AnswerPolicy>& policies) {
-  Facts facts = {{"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())},
-                 {"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)},
-                 {"  silence for ever", for_ever_text(partition)}};
+/// The layers of what the spec asks for come first, then those of independent choice, then others.
+std::string partition_text(const Json& partition, const Json& summary, const ProblemSpec& spec) {
+  Facts facts;
+  const std::string lead = headline_policies(spec).front().name;
+  const std::vector<AnswerPolicy> policies = answer_policies(spec);
+  for (const AnswerPolicy& policy : policies) {
+    if (!lead.empty() && policy.name == lead) add_layers(policy, partition[lead], facts);
+  }
+  facts.emplace_back("  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>()));
+  facts.emplace_back("  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition));
+  facts.emplace_back("  unbounded delay", unbounded_delay_text(partition));
   add_shares(partition, summary, facts);
   for (const AnswerPolicy& policy : policies) {
-    if (partition.contains(policy.name)) add_layers(policy, partition[policy.name], facts);
+    if (policy.name != lead && partition.contains(policy.name))
+      add_layers(policy, partition[policy.name], facts);
   }
   if (number_of(summary["connection_delay"]) > 0)
     facts.emplace_back("  connection", connection_text(partition, summary));
-  return fmt::format("\npartition {}\n{}  {}{}\n", text_of(partition["name"]), facts_text(facts),
-                     meaning(partition, summary), edge_hint(partition));
+  return fmt::format("\npartition {}\n{}{}{}", text_of(partition["name"]), facts_text(facts),
+                     headline_lines(partition, summary, headline_policies(spec)), edge_hint(partition));
 }
 
 /// One line a partition.
-std::string partitions_table(const Json& summary) {
+std::string partitions_table(const Json& summary, const AnswerPolicy& lead) {
   const std::int64_t delay = number_of(summary["connection_delay"]);
   std::vector<Column> columns = {
       {"partition", Align::left, [](const Json& entry) { return text_of(entry["name"]); }},
@@ -164,6 +140,11 @@ std::string partitions_table(const Json& summary) {
       {"unbounded", Align::right, unbounded_cells},
       {"longest finite delay", Align::left,
        [&summary](const Json& entry) { return longest_delay_text(entry, summary); }}};
+  if (!lead.name.empty()) {
+    columns.insert(columns.begin() + 1, {lead.gain + " for ever", Align::right, [&lead](const Json& entry) {
+                                           return unbounded_cells(entry[lead.name]);
+                                         }});
+  }
   if (delay > 0) {
     columns.push_back({"never without connection", Align::right,
                        [](const Json& entry) { return cells(entry["never_without_connection"]); }});
@@ -209,10 +190,9 @@ std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
     return "\nThe invariance set is empty on this grid: no state can be kept safe, even if all agents always "
            "coordinate.\n";
   }
-  if (!tells_partitions_in_full(summary)) return partitions_table(summary);
+  if (!tells_partitions_in_full(summary)) return partitions_table(summary, headline_policies(spec).front());
   std::string text;
-  const std::vector<AnswerPolicy> policies = answer_policies(spec);
-  for (const Json& partition : summary["partitions"]) text += partition_text(partition, summary, policies);
+  for (const Json& partition : summary["partitions"]) text += partition_text(partition, summary, spec);
   return text;
 }
 

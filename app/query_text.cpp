@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "answers/plan.hpp"
+#include "app/guarantee_line.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
 #include "app/render.hpp"
@@ -59,7 +61,7 @@ class AnswerText {
       if (!QueryForm::is_of_partitions(*field))
         facts.emplace_back(field->shown.asked.words, value_text(*field, answer_, field->shown.asked.name));
     }
-    facts.emplace_back("guarantee", guarantee_text(text_of(answer_["guarantee"])));
+    facts.emplace_back("guarantee", guarantee_of_file(text_of(answer_["guarantee"]), form_.spec()));
     return facts_text(facts);
   }
 
@@ -120,9 +122,18 @@ class AnswerText {
     return value_words(field, of, name, [this](const Json& steps) { return steps_text(steps); });
   }
 
+  /// The policies, before all others what the spec asks for.
+  [[nodiscard]] std::vector<AnswerPolicy> lead_first() const {
+    std::vector<AnswerPolicy> policies = form_.policies;
+    const std::string lead = headline_policies(form_.spec()).front().name;
+    std::stable_partition(policies.begin(), policies.end(),
+                          [&lead](const AnswerPolicy& policy) { return policy.name == lead; });
+    return policies;
+  }
+
   [[nodiscard]] std::string partition_text(const Json& partition) const {
     Facts facts;
-    for (const AnswerPolicy& policy : form_.policies) {
+    for (const AnswerPolicy& policy : lead_first()) {
       const Json& entry = policy.name.empty() ? partition : partition[policy.name];
       for (const auto& [key, path] : {std::pair("delay", policy.delay), {"countdown", policy.trigger}}) {
         if (path.empty()) continue;

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <optional>
 
+#include "answers/plan.hpp"
 #include "app/analysis_text.hpp"
+#include "app/guarantee_line.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
 #include "base/requires.hpp"
 #include "export/report_page.hpp"
+#include "results/first_largest.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -23,39 +26,49 @@ std::string time_text(std::int64_t steps, const ResultsReader& results) {
                      html_line(unit), count);
 }
 
-/// The sentences about one partition.
+/// The sentences about one partition, by one policy.
 class PartitionAnswer {
  public:
-  PartitionAnswer(const ResultsReader& results, std::size_t p, std::int64_t best_cell)
-      : results_(results), stored_(results.partitions()[p]), best_cell_(best_cell) {}
+  /// @param stored sizes of the policy's layers @param is_only there is no other policy
+  PartitionAnswer(const ResultsReader& results, const StoredPartition& stored, const AnswerPolicy& policy,
+                  std::int64_t best_cell, bool is_only)
+      : results_(results), stored_(stored), policy_(policy), best_cell_(best_cell) {
+    if (!is_only) how_ = " " + (is_delay() ? "by independent choice" : policy.headline);
+  }
 
-  [[nodiscard]] bool is_joint() const { return stored_.classes.size() == 1; }
+  /// Whether there is no silence to speak of.
+  [[nodiscard]] bool is_joint() const { return is_delay() && stored_.classes.size() == 1; }
 
   /// For how long they may be silent.
   [[nodiscard]] std::string headline() const {
     const std::int64_t last = static_cast<std::int64_t>(stored_.layer_sizes.size()) - 1;
     if (stored_.truncated()) {
       return fmt::format(
-          "From {} of the states {} may be silent for {}, perhaps longer: the analysis stopped there.",
-          share_text(stored_.layer_sizes.back(), kept()), who(), time_text(last, results_));
+          "From {} of the states {} may be silent for {}{}, perhaps longer: the analysis stopped there.",
+          share_text(stored_.layer_sizes.back(), whole()), who(), time_text(last, results_), how_);
     }
     if (is_joint()) return "All agents coordinate within every step, so there is no silence to tolerate.";
-    if (last == 0) return capital(who()) + " never need to talk to each other.";
-    if (unbounded() == 0 && last == 1)
-      return fmt::format("From no state may {} be silent, not even for one step.", who());
+    if (unbounded() == 0 && last <= 1)
+      return fmt::format("From no state may {} be silent{}, not even for one step.", who(), how_);
+    if (last == 0 && how_.empty()) return capital(who()) + " never need to talk to each other.";
     const std::string length = time_text(last - 1, results_);
     if (unbounded() == 0)
-      return fmt::format("{} may be silent for <strong>{}</strong> from the best state{}.", capital(who()),
-                         length, best_state());
-    return fmt::format(
-        "From {} of the states {} never need to talk to each other; from the best of the others{} they may "
-        "be silent for <strong>{}</strong>.",
-        share_text(unbounded(), kept()), who(), best_state(), length);
+      return fmt::format("{} may be silent for <strong>{}</strong>{} from the best state{}.", capital(who()),
+                         length, how_, best_state());
+    const std::string always =
+        how_.empty() ? fmt::format("From {} of the states {} never need to talk to each other",
+                                   share_text(unbounded(), whole()), who())
+                     : fmt::format("From {} of the states {} may be silent <strong>indefinitely</strong>{}",
+                                   share_text(unbounded(), whole()), who(), how_);
+    if (last == 0) return always + ".";
+    if (last == 1) return always + "; from the others not even for one step.";
+    return fmt::format("{}; from the best of the others{} they may be silent for <strong>{}</strong>.",
+                       always, best_state(), length);
   }
 
   /// Where silence is no choice; empty if that is not known or nothing to say.
   [[nodiscard]] std::string at_once() const {
-    if (is_joint()) return "";
+    if (is_joint() || !is_delay()) return "";
     const std::int64_t delay = results_.attributes().connection_delay;
     const std::optional<std::uint64_t> bearing = layer_size(delay + 1);
     if (!bearing) return "";
@@ -85,7 +98,7 @@ class PartitionAnswer {
     };
     const std::uint64_t any = stored_.layer_sizes[1];
     if (any == 0) return "";
-    if (!is_share(any, 90)) add(share_text(any, kept()), "for at least " + time_text(1, results_));
+    if (!is_share(any, 90)) add(share_text(any, whole()), "for at least " + time_text(1, results_));
     for (const int percent : {90, 50, 10, 1})
       if (is_share(any, percent)) add(fmt::format("{} %", percent), bearable(percent));
     return "<table><thead><tr><th scope=\"col\">So many</th><th scope=\"col\">may be "
@@ -107,6 +120,11 @@ class PartitionAnswer {
 
  private:
   [[nodiscard]] std::uint64_t kept() const { return stored_.layer_sizes.front(); }
+  /// The states that shares in headlines are of: those of K, or of S where the policy is about these.
+  [[nodiscard]] std::uint64_t whole() const {
+    return policy_.is_anywhere ? results_.attributes().safe_cells : results_.attributes().invariant_cells;
+  }
+  [[nodiscard]] bool is_delay() const { return policy_.name.empty(); }
   [[nodiscard]] std::uint64_t unbounded() const {
     return stored_.truncated() ? 0 : stored_.layer_sizes.back();
   }
@@ -121,7 +139,7 @@ class PartitionAnswer {
 
   /// Whether so many states are so much of K.
   [[nodiscard]] bool is_share(std::uint64_t size, int percent) const {
-    return size * 100 >= kept() * static_cast<std::uint64_t>(percent);
+    return size * 100 >= whole() * static_cast<std::uint64_t>(percent);
   }
 
   /// @pre so many tolerate a step
@@ -155,44 +173,74 @@ class PartitionAnswer {
 
   const ResultsReader& results_;
   const StoredPartition& stored_;
+  const AnswerPolicy& policy_;
   std::int64_t best_cell_;
+  std::string how_;  ///< after "silent", with a blank before
 };
 
-std::int64_t best_cell(const ReportData& data, std::size_t p) {
-  const auto found = std::find(data.partitions.begin(), data.partitions.end(), p);
-  return found == data.partitions.end()
-             ? -1
-             : data.best_cells[static_cast<std::size_t>(found - data.partitions.begin())];
-}
-
-std::string in_full(const ResultsReader& results, const ReportData& data) {
-  std::string html;
-  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    const PartitionAnswer answer(results, p, best_cell(data, p));
-    html += "<div class=\"answer\">\n";
-    if (results.partitions().size() > 1)
-      html += fmt::format("<h3>Partition {}</h3>\n", html_line(results.partitions()[p].name));
-    html += fmt::format("<p class=\"headline\">{}</p>\n", answer.headline());
-    if (const std::string more = answer.at_once(); !more.empty()) html += "<p>" + more + "</p>\n";
-    html += answer.shares() + "</div>\n";
+/// The sentences about all partitions, by all policies that answer the question.
+class Answers {
+ public:
+  Answers(const ResultsReader& results, const ReportData& data)
+      : results_(results), data_(data), policies_(headline_policies(results.spec())) {
+    for (const AnswerPolicy& policy : policies_)
+      sizes_.push_back(read_partition_values(results.spec(), results, policy.sizes()));
   }
-  return html;
-}
 
-/// With many partitions those whose pictures are shown stand in the open.
-std::string as_table(const ResultsReader& results, const ReportData& data) {
-  std::vector<std::string> shown, others;
-  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    const PartitionAnswer answer(results, p, best_cell(data, p));
-    const bool is_shown =
-        std::find(data.partitions.begin(), data.partitions.end(), p) != data.partitions.end();
-    (is_shown ? shown : others)
-        .push_back(html_row({html_line(results.partitions()[p].name), answer.headline(), answer.at_once()}));
+  /// What the spec asks for, large; the others below.
+  [[nodiscard]] std::string in_full() const {
+    std::string html;
+    for (std::size_t p = 0; p < results_.partitions().size(); ++p) {
+      const PartitionAnswer answer = answer_of(p, 0);
+      html += "<div class=\"answer\">\n";
+      if (results_.partitions().size() > 1)
+        html += fmt::format("<h3>Partition {}</h3>\n", html_line(results_.partitions()[p].name));
+      html += fmt::format("<p class=\"headline\">{}</p>\n", answer.headline());
+      for (std::size_t i = 1; i < policies_.size(); ++i)
+        html += "<p>" + answer_of(p, i).headline() + "</p>\n";
+      if (const std::string more = answer.at_once(); !more.empty()) html += "<p>" + more + "</p>\n";
+      html += answer.shares() + "</div>\n";
+    }
+    return html;
   }
-  const std::size_t open = shown.size();
-  shown.insert(shown.end(), others.begin(), others.end());
-  return html_long_table({"Partition", "Silence", "Contact"}, shown, "roomy", open);
-}
+
+  /// With many partitions those whose pictures are shown stand in the open.
+  [[nodiscard]] std::string as_table() const {
+    std::vector<std::string> shown, others;
+    for (std::size_t p = 0; p < results_.partitions().size(); ++p) {
+      const PartitionAnswer answer = answer_of(p, 0);
+      (is_shown(p) ? shown : others)
+          .push_back(
+              html_row({html_line(results_.partitions()[p].name), answer.headline(), answer.at_once()}));
+    }
+    const std::size_t open = shown.size();
+    shown.insert(shown.end(), others.begin(), others.end());
+    return html_long_table({"Partition", "Silence", "Contact"}, shown, "roomy", open);
+  }
+
+ private:
+  [[nodiscard]] bool is_shown(std::size_t p) const {
+    return std::find(data_.partitions.begin(), data_.partitions.end(), p) != data_.partitions.end();
+  }
+
+  /// -1: it is not looked for.
+  [[nodiscard]] std::int64_t best_cell(std::size_t p, const AnswerPolicy& policy) const {
+    if (!is_shown(p)) return -1;
+    const auto read = [&](const CellBlock& block) { return results_.values(policy.layered(), p, block); };
+    if (!policy.name.empty()) return first_largest(results_.grid(), read);
+    const auto at = std::find(data_.partitions.begin(), data_.partitions.end(), p) - data_.partitions.begin();
+    return data_.best_cells[static_cast<std::size_t>(at)];
+  }
+
+  [[nodiscard]] PartitionAnswer answer_of(std::size_t p, std::size_t i) const {
+    return {results_, sizes_[i][p], policies_[i], best_cell(p, policies_[i]), policies_.size() == 1};
+  }
+
+  const ResultsReader& results_;
+  const ReportData& data_;
+  std::vector<AnswerPolicy> policies_;
+  std::vector<std::vector<StoredPartition>> sizes_;  ///< [policy][partition]
+};
 
 std::string partition_answers(const ResultsReader& results, const ReportData& data) {
   const StoredAttributes& attributes = results.attributes();
@@ -205,8 +253,8 @@ std::string partition_answers(const ResultsReader& results, const ReportData& da
                     ? "There is no state from which every allowed action keeps the system safe."
                     : "No state can be kept safe, even if all agents always coordinate.");
   }
-  return results.partitions().size() > kMostPartitionsInFull ? as_table(results, data)
-                                                             : in_full(results, data);
+  const Answers answers(results, data);
+  return results.partitions().size() > kMostPartitionsInFull ? answers.as_table() : answers.in_full();
 }
 
 /// The meaning of the numbers, and their limits.
@@ -220,7 +268,7 @@ std::string fine_print(const ResultsReader& results) {
       "<p class=\"note\">Guarantee {}; for every disturbance, and whatever admissible actions the agents "
       "choose on their own.</p>\n",
       grouped(cells), grouped(attributes.safe_cells), grouped(attributes.invariant_cells),
-      html_line(guarantee_text(attributes.guarantee)));
+      html_line(guarantee_of_file(attributes.guarantee, results.spec())));
 }
 
 }  // namespace

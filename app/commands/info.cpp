@@ -3,19 +3,25 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "answers/plan.hpp"
+#include "app/analysis_text.hpp"
 #include "app/answers/all.hpp"
 #include "app/commands/all.hpp"
+#include "app/guarantee_line.hpp"
+#include "app/headline.hpp"
 #include "app/print_answer.hpp"
 #include "app/render.hpp"
 #include "base/json.hpp"
 #include "results/read_info.hpp"
+#include "results/results_reader.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
 using Align = Table::Align;
 
-std::string head_text(const Json& info) {
+std::string head_text(const Json& info, const ProblemSpec& spec) {
   Facts facts = {{"name", line_of(info["name"])},
                  {"written by", fmt::format("coordreq {} ({})", line_of(info["coordreq_version"]),
                                             line_of(info["git_sha1"]))},
@@ -26,7 +32,7 @@ std::string head_text(const Json& info) {
       facts.end(),
       {{"period", fmt::format("{:.6g} {}", info["period"].get<double>(), line_of(info["period_unit"]))},
        {"connection delay", duration(info["connection_delay"], info)},
-       {"guarantee", guarantee_text(text_of(info["guarantee"]))},
+       {"guarantee", guarantee_of_file(text_of(info["guarantee"]), spec)},
        {"cells", grouped(info["cells"])},
        {"safe set", grouped(info["safe"])},
        {"invariance set", grouped(info["invariant"])}});
@@ -58,9 +64,19 @@ std::string described_partitions(const Json& partitions) {
         [](const Json& entry) { return shortened(entry["layers"].get<std::vector<std::int64_t>>()); }}});
 }
 
-std::string info_text(const Json& info) {
-  std::string text =
-      head_text(info) + "\n" + axes_text(info) + "\n" + described_partitions(info["partitions"]);
+/// For how long silence is safe, by partition.
+std::string answers_text(const Json& info, const std::vector<AnswerPolicy>& policies) {
+  const Json& partitions = info["partitions"];
+  if (info["invariant"] == 0 || partitions.size() > kMostPartitionsInFull) return "";
+  std::string text;
+  for (const Json& partition : partitions)
+    text += "\n" + line_of(partition["name"]) + "\n" + headline_lines(partition, info, policies);
+  return text;
+}
+
+std::string info_text(const Json& info, const ProblemSpec& spec) {
+  std::string text = head_text(info, spec) + answers_text(info, headline_policies(spec)) + "\n" +
+                     axes_text(info) + "\n" + described_partitions(info["partitions"]);
   for (const InfoSection section : info_sections()) text += section(info);
   std::vector<std::string> told = told_members();
   told.emplace_back("spec");
@@ -82,7 +98,8 @@ Run declare_info(Options& options) {
   declare_common(options, *own, {.threads = false});
   return [own] {
     own->keep_to_memory();
-    print_answer(*own, read_info(own->results, own->max_memory), info_text);
+    const ResultsReader results(own->results, own->max_memory);
+    print_answer(*own, read_info(results), [&](const Json& info) { return info_text(info, results.spec()); });
     return ExitCode::success;
   };
 }

@@ -1,5 +1,6 @@
 #include "answers/plan.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "answers/blind/answer.hpp"
@@ -157,6 +158,14 @@ std::vector<AnswerPolicy> answer_policies(const ProblemSpec& spec) {
     if (answer.policies == nullptr) continue;
     for (AnswerPolicy& policy : answer.policies(spec)) policies.push_back(std::move(policy));
   }
+  return policies;
+}
+
+std::vector<AnswerPolicy> headline_policies(const ProblemSpec& spec) {
+  std::vector<AnswerPolicy> policies = answer_policies(spec);
+  std::erase_if(policies,
+                [](const AnswerPolicy& policy) { return !policy.name.empty() && policy.headline.empty(); });
+  std::reverse(policies.begin(), policies.end());
   return policies;
 }
 

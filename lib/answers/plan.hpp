@@ -64,6 +64,10 @@ struct Answer {
 /// The policies of all answers that the spec asks for, in order; the first is the policy of the delays.
 [[nodiscard]] std::vector<AnswerPolicy> answer_policies(const ProblemSpec& spec);
 
+/// Those that answer how long silence is safe: first what the spec asks for (a rule, agents that see only
+/// themselves), last independent choice.
+[[nodiscard]] std::vector<AnswerPolicy> headline_policies(const ProblemSpec& spec);
+
 /// Observers of stages, and stores for them.
 struct PlanWatch {
   /// Called when a stage begins; may be empty.

@@ -18,15 +18,6 @@ namespace {
 constexpr int kLevel = 9;
 constexpr std::int32_t kLowestFlag = -3;
 
-/// Calls `visit(block, values)` for all cells in row-major order, about a million at a time.
-template <class Visit>
-void for_each_part(const UniformGrid& grid, const ReadCells& read, const Visit& visit) {
-  for (std::int64_t begin = 0; begin < grid.cells(); begin += kPartCells) {
-    const std::int64_t end = std::min(begin + kPartCells, grid.cells());
-    for (const CellBlock& block : blocks_of_stretch(grid, begin, end)) visit(block, read(block));
-  }
-}
-
 /// The values of one set of cells, gathered from the parts that they lie in.
 class Gathering {
  public:
@@ -116,22 +107,6 @@ PackedMaps pack_map(const UniformGrid& grid, const ReadCells& read, const std::v
   for (const Gathering& gathering : gatherings) maps.sets.push_back(packed(gathering.values(), maps.largest));
   maps.flags.assign(flags.begin(), flags.end());
   return maps;
-}
-
-std::int64_t first_largest(const UniformGrid& grid, const ReadCells& read) {
-  std::int64_t cell = 0, best = -1;
-  std::int32_t largest = -1;
-  for_each_part(grid, read, [&](const CellBlock& /*part*/, const std::vector<std::int32_t>& values) {
-    for (const std::int32_t value : values) {
-      const bool infinite = value == ResultsReader::kNever;
-      if (infinite ? best < 0 : value > largest) {
-        best = cell;
-        largest = infinite ? -1 : value;
-      }
-      ++cell;
-    }
-  });
-  return best;
 }
 
 }  // namespace coordreq

@@ -5,6 +5,7 @@
 #include "answers/plan.hpp"
 #include "base/json.hpp"
 #include "model/outside_word.hpp"
+#include "results/first_largest.hpp"
 #include "results/results_reader.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/set_value.hpp"
@@ -55,16 +56,41 @@ void add_axes(const ResultsReader& results, Json& info) {
   info["cells"] = results.grid().cells();
 }
 
+void add_best_states(const ResultsReader& results, Json& info) {
+  const std::size_t partitions = results.partitions().size();
+  if (results.grid().cells() > kMostCellsLookedAt / static_cast<std::int64_t>(partitions)) return;
+  const AnswerPolicy policy = headline_policies(results.spec()).front();
+  const std::vector<StoredPartition> sizes = read_partition_values(results.spec(), results, policy.sizes());
+  for (std::size_t p = 0; p < partitions; ++p) {
+    Json& entry = info["partitions"][p];
+    (policy.name.empty() ? entry : entry[policy.name])["best_state"] =
+        best_state_json(results, policy, p, sizes[p]);
+  }
+}
+
 }  // namespace
 
-Json read_info(const std::string& path, std::optional<std::uint64_t> max_memory) {
-  const ResultsReader results(path, max_memory);
+Json best_state_json(const ResultsReader& results, const AnswerPolicy& policy, std::size_t p,
+                     const StoredPartition& sizes) {
+  if (sizes.truncated() || sizes.layer_sizes.size() < 3) return {};
+  const UniformGrid& grid = results.grid();
+  const std::int64_t cell =
+      first_largest(grid, [&](const CellBlock& block) { return results.values(policy.layered(), p, block); });
+  if (cell < 0) return {};
+  Json json = Json::object();
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    json[grid[i].name] = nearest_double(grid[i].point(grid.index(cell, i)));
+  return json;
+}
+
+Json read_info(const ResultsReader& results) {
   Json info;
   add_header(results, info);
   add_axes(results, info);
   for (const Answer& answer : all_answers()) {
     if (answer.tell != nullptr) answer.tell(results.spec(), results, info);
   }
+  add_best_states(results, info);
   info["datasets"] = results.datasets();
   info["spec"] = parse_json(without_comments(results.spec().text));
   return info;

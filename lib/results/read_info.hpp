@@ -1,16 +1,26 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
+#include "answers/one_cell/policy.hpp"
 #include "base/json.hpp"
+#include "results/results_reader.hpp"
 
 namespace coordreq {
 
 /// The document of `info`: the origin of a results file, its axes, the members of each answer, and
 /// `datasets`: paths, sorted, without bare dimensions, which hold no data.
-/// @param max_memory as of ResultsReader. @throws as ResultsReader
-[[nodiscard]] Json read_info(const std::string& path, std::optional<std::uint64_t> max_memory = std::nullopt);
+/// Each partition has a best state (`best_state`, see best_state_json()) of the first of headline_policies(),
+/// if the file is small enough to look for one (`kMostCellsLookedAt`). @throws as ResultsReader
+[[nodiscard]] Json read_info(const ResultsReader& results);
+
+/// Up to so many cells of a file are looked at for its best states.
+inline constexpr std::int64_t kMostCellsLookedAt = 16'000'000;
+
+/// The centre of the first cell with the longest finite number of steps of a policy in a partition, by the
+/// names of the states; null if there is no finite number above 0, or if none is known to be the longest.
+/// @param sizes of the policy's layers in the partition
+[[nodiscard]] Json best_state_json(const ResultsReader& results, const AnswerPolicy& policy, std::size_t p,
+                                   const StoredPartition& sizes);
 
 }  // namespace coordreq

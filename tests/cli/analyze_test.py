@@ -49,11 +49,11 @@ guarantee       samples-center: checked every 0\.01 s only, where the centre of 
 partition horizontal\|vertical
   layers                  20,077 19,421 17,869 16,717 15,533 14,317 \.\.\. 61 5 0
   fixed point             F = 29
-  silence for ever        0 cells
+  unbounded delay         0 cells
   half of K can tolerate  at least 8 steps \(0\.08 s\)
   90 % of K can tolerate  at least 1 step \(0\.01 s\)
   99 % of K can tolerate  not a step
-  From the best state, 28 steps \(0\.28 s\) without coordination are safe\.
+  From the best state \(x1 = -0\.01, x2 = 0\), 28 steps \(0\.28 s\) without coordination are safe\.
 
 results in circle\.h5 \([0-9.]+ s on 2 threads, [0-9.]+ MiB\)
 $""",
@@ -120,7 +120,7 @@ $""",
             return own["fixed_point"], own["leaving"]
 
         def line():
-            return re.search("(?m)^  silence for ever  +(.*)$", self.run_program("analyze", "spec.json").stdout.decode())[1]
+            return re.search("(?m)^  unbounded delay  +(.*)$", self.run_program("analyze", "spec.json").stdout.decode())[1]
 
         self.assertEqual(partition(), (6, 3))
         self.assertEqual(line(), "6 cells, of these 3 because they leave through a safe side")
@@ -184,7 +184,7 @@ $""",
         )
         self.assertEqual(
             list(summary["partitions"][0]),
-            ["name", "classes", "F", "fixed_point", "leaving", "layers", "truncated", "never_without_connection", "max_delay_time", "best_at_edges"],
+            ["name", "classes", "F", "fixed_point", "leaving", "layers", "truncated", "never_without_connection", "max_delay_time", "best_state", "best_at_edges"],
         )
         self.assertEqual((summary["name"], summary["output"]), ("small", "out.h5"))
         self.assertEqual((summary["period"], summary["period_unit"]), (0.5, "s"))
@@ -214,7 +214,7 @@ $""",
             (partition["F"], partition["fixed_point"], partition["truncated"]), (None, None, True)
         )
         text = self.run_program("analyze", "spec.json").stdout.decode()
-        self.assertRegex(text, r"  fixed point +not reached\n  silence for ever +unknown\n")
+        self.assertRegex(text, r"  fixed point +not reached\n  unbounded delay +unknown\n")
         self.assertIn(
             "  Stopped at max_delay: 16,717 cells allow 3 steps (0.03 s) without coordination, "
             "perhaps more.\n",
@@ -250,8 +250,8 @@ $""",
         self.assertEqual(summary["partitions"][0]["layers"], [3, 2])
         text = self.run_program("analyze", "spec.json").stdout.decode()
         self.assertIn(
-            "  From 2 cells the agents never need to coordinate; from the best of the others, 0 steps without "
-            "coordination are safe.\n",
+            "  From 2 cells the agents never need to coordinate; from the others not even one step without "
+            "coordination is safe.\n",
             text,
         )
 
@@ -273,9 +273,9 @@ $""",
         )
         self.write("spec.json", spec)
         sections = self.run_program("analyze", "spec.json").stdout.decode().split("\npartition ")
-        self.assertRegex(sections[1], r"  From the best state, \d steps without coordination are safe\.\n")
+        self.assertRegex(sections[1], r"  From the best state \([^)]*\), \d steps without coordination are safe\.\n")
         self.assertRegex(
-            sections[2], r"  From the best state, \d steps without coordination between classes are safe\.\n"
+            sections[2], r"  From the best state \([^)]*\), \d steps without coordination between classes are safe\.\n"
         )
         self.assertIn("  All agents coordinate within every step, so every delay is unbounded.\n", sections[3])
         spec["safe"] = "z <= 5"

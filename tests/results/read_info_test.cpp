@@ -38,7 +38,7 @@ class ReadInfo : public testing::Test {
   /// The error of read_info(), without the path.
   [[nodiscard]] std::string defect() const {
     try {
-      static_cast<void>(read_info(path_));
+      static_cast<void>(read_info(ResultsReader(path_)));
     } catch (const ResultsError& error) {
       std::string text = error.what();
       for (auto place = text.find(path_); place != std::string::npos; place = text.find(path_)) {
@@ -63,7 +63,7 @@ void remove_attribute(const Handle& file, const std::string& path, const std::st
 
 TEST_F(ReadInfo, TellsWhatWasWritten) {
   write_sample();
-  const Json info = read_info(path_);
+  const Json info = read_info(ResultsReader(path_));
   EXPECT_EQ(info["file"], path_);
   EXPECT_EQ(info["name"], "sample");
   EXPECT_EQ(info["coordreq_version"], program_version());
@@ -80,7 +80,7 @@ TEST_F(ReadInfo, TellsWhatWasWritten) {
 
 TEST_F(ReadInfo, StatesAndInputsAreInTheOrderOfTheSpec) {
   write_sample();
-  const Json info = read_info(path_);
+  const Json info = read_info(ResultsReader(path_));
   ASSERT_EQ(info["states"].size(), 3U);
   ASSERT_EQ(info["inputs"].size(), 3U);
   EXPECT_EQ(info["states"][0]["name"], "x1");
@@ -96,7 +96,7 @@ TEST_F(ReadInfo, StatesAndInputsAreInTheOrderOfTheSpec) {
 
 TEST_F(ReadInfo, LayersEndAtTheFixedPoint) {
   write_sample();
-  const Json info = read_info(path_);
+  const Json info = read_info(ResultsReader(path_));
   ASSERT_EQ(info["partitions"].size(), 2U);
   EXPECT_EQ(info["partitions"][0]["name"], "alone");
   EXPECT_EQ(info["partitions"][0]["F"], 2);
@@ -110,57 +110,58 @@ TEST_F(ReadInfo, TruncatedPartitionsHaveNoFixedPoint) {
   sample::Options options;
   options.truncated = true;
   write_sample(options);
-  const Json info = read_info(path_);
+  const Json info = read_info(ResultsReader(path_));
   EXPECT_EQ(info["partitions"][1]["F"], nullptr);
   EXPECT_EQ(info["partitions"][1]["layers"].size(), 4U);
 }
 
 TEST_F(ReadInfo, DatasetsAreListedButNotBareDimensions) {
   write_sample();
-  EXPECT_EQ(read_info(path_)["datasets"], (std::vector<std::string>{"/abstraction/heading/first",
-                                                                    "/abstraction/heading/last",
-                                                                    "/abstraction/x1/first",
-                                                                    "/abstraction/x1/last",
-                                                                    "/abstraction/x2/first",
-                                                                    "/abstraction/x2/last",
-                                                                    "/actions/alone/a",
-                                                                    "/actions/alone/b",
-                                                                    "/actions/alone/c",
-                                                                    "/actions/a|b+c/a",
-                                                                    "/actions/a|b+c/b+c",
-                                                                    "/collision_time",
-                                                                    "/controller",
-                                                                    "/delay",
-                                                                    "/fixed_point_index",
-                                                                    "/heading",
-                                                                    "/invariant",
-                                                                    "/layer",
-                                                                    "/layer_size",
-                                                                    "/layers/alone/cell",
-                                                                    "/layers/alone/start",
-                                                                    "/layers/a|b+c/cell",
-                                                                    "/layers/a|b+c/start",
-                                                                    "/partition",
-                                                                    "/safe",
-                                                                    "/spec",
-                                                                    "/spec_json",
-                                                                    "/trigger",
-                                                                    "/u1",
-                                                                    "/u2",
-                                                                    "/u3",
-                                                                    "/x1",
-                                                                    "/x2"}));
+  EXPECT_EQ(read_info(ResultsReader(path_))["datasets"],
+            (std::vector<std::string>{"/abstraction/heading/first",
+                                      "/abstraction/heading/last",
+                                      "/abstraction/x1/first",
+                                      "/abstraction/x1/last",
+                                      "/abstraction/x2/first",
+                                      "/abstraction/x2/last",
+                                      "/actions/alone/a",
+                                      "/actions/alone/b",
+                                      "/actions/alone/c",
+                                      "/actions/a|b+c/a",
+                                      "/actions/a|b+c/b+c",
+                                      "/collision_time",
+                                      "/controller",
+                                      "/delay",
+                                      "/fixed_point_index",
+                                      "/heading",
+                                      "/invariant",
+                                      "/layer",
+                                      "/layer_size",
+                                      "/layers/alone/cell",
+                                      "/layers/alone/start",
+                                      "/layers/a|b+c/cell",
+                                      "/layers/a|b+c/start",
+                                      "/partition",
+                                      "/safe",
+                                      "/spec",
+                                      "/spec_json",
+                                      "/trigger",
+                                      "/u1",
+                                      "/u2",
+                                      "/u3",
+                                      "/x1",
+                                      "/x2"}));
 }
 
 TEST_F(ReadInfo, AFileThatIsNotThereIsAnInputError) {
   try {
-    static_cast<void>(read_info(path_));
+    static_cast<void>(read_info(ResultsReader(path_)));
     FAIL();
   } catch (const IoError& error) {
     EXPECT_EQ(error.what(), "cannot read the results: No such file or directory (" + path_ + ")");
   }
-  EXPECT_THROW(static_cast<void>(read_info(folder_.path())), IoError);
-  EXPECT_THROW(static_cast<void>(read_info("/dev/null")), IoError);
+  EXPECT_THROW(static_cast<void>(read_info(ResultsReader(folder_.path()))), IoError);
+  EXPECT_THROW(static_cast<void>(read_info(ResultsReader("/dev/null"))), IoError);
 }
 
 TEST_F(ReadInfo, OtherFilesAreNotResults) {

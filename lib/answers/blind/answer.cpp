@@ -168,8 +168,8 @@ void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work
   if (work.store != nullptr) work.store->finish(serialise_all);
 }
 
-Json blind_json(const DelayLayers& layers, std::int64_t as_much) {
-  Json json = layers_json(layers);
+Json blind_json(const AnalysisContext& context, const DelayLayers& layers, std::int64_t as_much) {
+  Json json = layers_json(context, layers);
   json["as_much"] = as_much;
   return json;
 }
@@ -204,8 +204,8 @@ void summarise_blind(const Answers& answers, Json& summary, Json& work) {
     const DelayLayers& layers = blind_layers(answers, p);
     Json& entry = summary["partitions"][p]["blind"];
     const bool is_one_class = spec.coordination.partitions[p].classes.size() == 1;
-    entry =
-        blind_json(layers, is_one_class ? layers.sizes.front() : answers.get<Blind>().partitions[p].as_much);
+    entry = blind_json(answers.context, layers,
+                       is_one_class ? layers.sizes.front() : answers.get<Blind>().partitions[p].as_much);
     if (!is_one_class)
       work["blind layers " + spec.coordination.partitions[p].name] = work_json(layers.counts);
   }

@@ -86,6 +86,7 @@ std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
   return {{.name = "blind",
            .words = "blind",
            .gain = "see only themselves",
+           .headline = "with own observations only",
            .delay = paths::kBlindDelay,
            .trigger = paths::kBlindCountdown,
            .is_on_request = true,

@@ -90,7 +90,7 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   if (answers.context.spec.ends_at_goal) summary["goal"]["then"] = "over";
   work["arrival"] = work_json(goal->counts);
   for (std::size_t p = 0; p < goal->approach.size(); ++p) {
-    summary["partitions"][p]["approach"] = layers_json(goal->approach[p]);
+    summary["partitions"][p]["approach"] = layers_json(answers.context, goal->approach[p]);
     work["approach " + answers.context.spec.coordination.partitions[p].name] =
         work_json(goal->approach[p].counts);
   }

@@ -128,6 +128,7 @@ Json partition_json(const AnalysisContext& context, const PartitionSpec& partiti
   json["truncated"] = layers.truncated;
   json["never_without_connection"] = cells_bound_to_connect(context, layers);
   json["max_delay_time"] = longest_delay(context, layers);
+  json["best_state"] = best_state_json(context, layers);
   json["best_at_edges"] = best_at_json(context, layers);
   return json;
 }
@@ -183,17 +184,18 @@ void examine_layers(const ProblemSpec& spec, const FieldSource& source) {
   }
 }
 
-Json layers_json(const DelayLayers& layers) {
+Json layers_json(const AnalysisContext& context, const DelayLayers& layers) {
   return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
           {"layers", layers.sizes},
           {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
-          {"truncated", layers.truncated}};
+          {"truncated", layers.truncated},
+          {"best_state", best_state_json(context, layers)}};
 }
 
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["partitions"] = Json::array();
   for (const StoredPartition& partition : read_partition_values(spec, source)) {
-    Json entry = {{"name", partition.name}};
+    Json entry = {{"name", partition.name}, {"classes", partition.classes}};
     entry.update(stored_json(partition));
     info["partitions"].push_back(std::move(entry));
   }

@@ -41,8 +41,8 @@ void examine_layers(const ProblemSpec& spec, const FieldSource& source);
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 /// The members of layers in the summary, beside their partition: F, sizes, unbounded cells, whether
-/// `max_delay` cut them.
-[[nodiscard]] Json layers_json(const DelayLayers& layers);
+/// `max_delay` cut them, a best state. Together.
+[[nodiscard]] Json layers_json(const AnalysisContext& context, const DelayLayers& layers);
 /// Adds the same members of the layers in a file, for all partitions. @param prefix of their paths, see
 /// add_sizes()
 /// @param member of each partition in `info` @throws ResultsError if an F is no layer

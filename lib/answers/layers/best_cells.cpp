@@ -1,6 +1,10 @@
 #include "answers/layers/best_cells.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "model/outside.hpp"
 
@@ -32,11 +36,91 @@ struct Touched {
   }
 };
 
+/// The level of the cells with the longest finite delay; nothing if there is no finite delay above 0, or if
+/// none is known to be the longest.
+std::optional<std::int64_t> best_level(const DelayLayers& layers) {
+  const auto last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
+  if (layers.truncated || last < 2) return std::nullopt;
+  return last;
+}
+
+/// The first of some levels that is this one, or their end.
+template <class Level>
+const Level* find_level(const Level* begin, const Level* end, std::int64_t level) {
+  if constexpr (sizeof(Level) == 1) {
+    const void* const found =
+        std::memchr(begin, static_cast<int>(level), static_cast<std::size_t>(end - begin));
+    return found == nullptr ? end : static_cast<const Level*>(found);
+  } else {
+    return std::find(begin, end, static_cast<Level>(level));
+  }
+}
+
+/// Numbers of cells in the order of the spec.
+class SpecNumbers {
+ public:
+  explicit SpecNumbers(const UniformGrid& grid) : grid_(grid), strides_(grid.size()) {
+    std::int64_t stride = 1;
+    for (std::size_t state = grid.size(); state-- > 0;) {
+      strides_[grid.dimension_of(state)] = stride;
+      stride *= grid[grid.dimension_of(state)].count;
+    }
+  }
+
+  [[nodiscard]] std::int64_t of(std::int64_t cell) const {
+    std::int64_t number = 0;
+    for (std::size_t i = 0; i < grid_.size(); ++i) number += grid_.index(cell, i) * strides_[i];
+    return number;
+  }
+  [[nodiscard]] std::int64_t index(std::int64_t number, std::size_t i) const {
+    return number / strides_[i] % grid_[i].count;
+  }
+
+ private:
+  const UniformGrid& grid_;
+  std::vector<std::int64_t> strides_;  ///< [dimension]
+};
+
+/// The least number, in the order of the spec, of the cells with a level. Together.
+std::int64_t first_cell(const AnalysisContext& context, const DelayLayers& layers, std::int64_t level,
+                        const SpecNumbers& numbers) {
+  const std::int64_t row_length = context.abstraction->grid.row_length();
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  layers.layers_of.visit([&](const auto& levels) {
+    const std::int64_t begin = context.share ? context.share->own().begin : 0;
+    const std::int64_t end = context.share ? context.share->own().end : levels.rows();
+    for (std::int64_t r = begin; r < end; ++r) {
+      const auto* const row = levels.row(r);
+      // Along a run numbers rise, so that the first cell of a run is enough.
+      levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+        const auto* const at = find_level(row + lane, row + lane + count, level);
+        if (at != row + lane + count) first = std::min(first, numbers.of(r * row_length + (at - row)));
+      });
+    }
+  });
+  return context.share ? -context.ranks->greatest(-first) : first;
+}
+
 }  // namespace
 
+Json best_state_json(const AnalysisContext& context, const DelayLayers& layers) {
+  const std::optional<std::int64_t> level = best_level(layers);
+  if (!level) return {};
+  const UniformGrid& grid = context.abstraction->grid;
+  const SpecNumbers numbers(grid);
+  const std::int64_t cell = first_cell(context, layers, *level, numbers);
+  Json json = Json::object();
+  for (std::size_t state = 0; state < grid.size(); ++state) {
+    const std::size_t i = grid.dimension_of(state);
+    json[grid[i].name] = nearest_double(grid[i].point(numbers.index(cell, i)));
+  }
+  return json;
+}
+
 std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const DelayLayers& layers) {
-  const auto last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
-  if (layers.truncated || last < 2) return {};
+  const std::optional<std::int64_t> level = best_level(layers);
+  if (!level) return {};
+  const std::int64_t last = *level;
   const UniformGrid& grid = context.abstraction->grid;
   Touched touched{std::vector<std::int64_t>(2 * grid.size(), 0)};
   layers.layers_of.visit([&](const auto& levels) {

@@ -4,6 +4,7 @@
 
 #include "answers/analysis_context.hpp"
 #include "answers/layers/delay_layers.hpp"
+#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -19,5 +20,10 @@ struct GridSide {
 /// above 0, or if none is known to be the longest. Together.
 [[nodiscard]] std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context,
                                                         const DelayLayers& layers);
+
+/// The centre of the first cell, in the order of the spec, of those with the longest finite delay, by the
+/// names of the states; null if there is no finite delay above 0, or if none is known to be the longest.
+/// Together.
+[[nodiscard]] Json best_state_json(const AnalysisContext& context, const DelayLayers& layers);
 
 }  // namespace coordreq

@@ -75,6 +75,9 @@ struct AnswerPolicy {
   std::string name = {};
   std::string words = {};  ///< "actions", "approach": before " of CLASS"
   std::string gain = {};   ///< what silent agents gain by it: "loses no time"; of policies with a name
+  /// Of policies that answer how long silence is safe, other than that of the delays: after "3 steps of
+  /// silence" in the sentence that says so. The last of them in the plan is what the spec asks for first.
+  std::string headline = {};
   /// Paths of steps over partitions: for how long the agents can do without coordination, and until when they
   /// must start to connect. `delay` empty: not a policy of a loop; `trigger` empty: the policy has a delay
   /// alone.
@@ -103,6 +106,10 @@ struct AnswerPolicy {
   HeaderComments header = {};
 
   [[nodiscard]] const std::string& countdown() const { return trigger.empty() ? delay : trigger; }
+  /// The path of the steps whose sizes of layers are stored.
+  [[nodiscard]] const std::string& layered() const { return is_on_request ? countdown() : delay; }
+  /// What the paths of these sizes begin with.
+  [[nodiscard]] std::string sizes() const { return name.empty() ? "/" : "/" + name + "_"; }
 };
 
 }  // namespace coordreq

@@ -126,7 +126,7 @@ void summarise_silence(const Answers& answers, Json& summary, Json& work) {
   }
   for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
     const DelayLayers& layers = silence_of(answers, p).layers;
-    summary["partitions"][p]["silence"] = layers_json(layers);
+    summary["partitions"][p]["silence"] = layers_json(answers.context, layers);
     work[stage_name(spec, p)] = work_json(layers.counts);
   }
 }

@@ -32,6 +32,7 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
   return {{.name = "silence",
            .words = "silent",
            .gain = "safe by the rule",
+           .headline = "by the communication-loss rule",
            .delay = paths::kSilence,
            .is_on_request = true,
            .is_anywhere = true,
