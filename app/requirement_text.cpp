@@ -10,6 +10,7 @@
 #include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
+#include "spec/state_bounds.hpp"
 
 namespace coordreq {
 namespace {
@@ -229,6 +230,24 @@ StoryTable story_table(const Json& entry, const ProblemSpec& spec) {
 
 namespace {
 
+/// Adds how far the cell of the last state reaches beyond bounds of `safe` that its centre keeps.
+void add_reach(const Json& story, const ProblemSpec& spec, std::vector<std::string>& sentences) {
+  if (story["end"] != "outside_safe_set" || story["end_sample"].is_null()) return;
+  if (spec.abstraction.safe != Membership::inner) return;
+  std::vector<std::string> parts;
+  for (const StateBound& bound : state_bounds(spec.safe, spec.states.size())) {
+    const StateSpec& state = spec.states[bound.state];
+    if (state.discrete) continue;
+    const auto centre = story["end_sample"]["state"][state.name].get<double>();
+    const double half = nearest_double(state.grid.step) / 2, limit = nearest_double(bound.value);
+    const double end = bound.is_upper ? centre + half : centre - half;
+    const bool is_kept = bound.is_upper ? centre <= limit : centre >= limit;
+    const bool is_passed = bound.is_upper ? end > limit : end < limit;
+    if (is_kept && is_passed) parts.push_back(fmt::format("{} = {:.6g}", state.name, end));
+  }
+  if (!parts.empty()) sentences.push_back(fmt::format("The last cell reaches {}.", listed_words(parts)));
+}
+
 /// Adds the proven number beside the seen one: enclosures are wider than motion.
 void add_seen(const Json& story, const ProblemSpec& spec, std::vector<std::string>& sentences) {
   if (story["proven"].is_null()) return;
@@ -287,6 +306,7 @@ std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spe
 std::vector<std::string> story_sentences(const Json& entry, const ProblemSpec& spec) {
   REQUIRES(!entry["counterexample"]["state"].is_null());
   std::vector<std::string> sentences = way_sentences(entry, spec);
+  add_reach(entry["counterexample"], spec, sentences);
   add_seen(entry["counterexample"], spec, sentences);
   return sentences;
 }

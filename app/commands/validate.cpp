@@ -199,6 +199,7 @@ struct ValidateOptions : CommonOptions {
   std::string spec;
   std::vector<SpecSetting> settings;
   std::optional<int> ranks;
+  std::int64_t posts = 1000;
   bool is_verbose = false;
 };
 
@@ -217,7 +218,7 @@ Json inspected(const ProblemSpec& spec, const ValidateOptions& options) {
         seconds)
       found["seconds"] = *seconds;
     check_regions(spec, team);
-    found["warnings"] = warnings_json(advise_before(model, report.motion, team));
+    found["warnings"] = warnings_json(advise_before(model, report.motion, options.posts, team));
   } else {
     found["warnings"] = warnings_json({too_large_here(report, *memory)});
   }
@@ -251,6 +252,10 @@ Run declare_validate(Options& options) {
       own->ranks, "--ranks", "N",
       "Also tell what the fullest of so many processes of coordreq-mpi would need, each with --threads",
       WholeNumber<int>{1, kMostRanks});
+  options.option(own->posts, "--posts", "N",
+                 "Compute so many successor sets of a large problem, to find equations that are undefined "
+                 "somewhere (default: 1000)",
+                 WholeNumber<std::int64_t>{1, 1'000'000'000});
   options.flag(own->is_verbose, "--verbose", "Also show how tables and rows are kept");
   declare_common(options, *own);
   return [own] { return run(*own); };

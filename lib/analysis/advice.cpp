@@ -3,6 +3,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "analysis/look_ahead.hpp"
 #include "analysis/unseen_motion.hpp"
 #include "answers/context/answer.hpp"
 #include "answers/invariance/answer.hpp"
@@ -28,14 +29,21 @@ void add(Warnings more, Warnings& all) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// The warnings of a single process, from K or from S alone.
+/// The warnings of a single process, from K or from S alone. @param posts of look_ahead(); 0: it is not
+/// called
 Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion, bool finds_invariance,
-                      ThreadTeam& team, SearchWork& search) {
+                      std::int64_t posts, ThreadTeam& team, SearchWork& search) {
   Warnings all = advise_on_spec(model.spec());
+  add(advise_on_bounds(model.spec()), all);
   add(advise_on_units(model.spec(), motion), all);
-  if (!has_few_posts(model)) return all;
+  if (!has_few_posts(model)) {
+    if (posts > 0) add(look_ahead(model, posts, team), all);
+    return all;
+  }
   Answers answers(model);
   run_stages(context_stages(model.spec()), answers, {.team = team});
+  if (posts > 0 && answers.context.safe_cells == 0)
+    all.push_back({"empty", "/safe", "the safe set is empty on this grid"});
   if (finds_invariance) run_stages(invariance_stages(model.spec()), answers, {.team = team});
   add(advise_on_posts(answers.context, motion), all);
   add(advise_on_unseen_motion(answers.context,
@@ -47,9 +55,10 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
 
 }  // namespace
 
-Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion, ThreadTeam& team) {
+Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion, std::int64_t posts,
+                       ThreadTeam& team) {
   SearchWork search;
-  return advise_alone(model, motion, false, team, search);
+  return advise_alone(model, motion, false, posts, team, search);
 }
 
 Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, ThreadTeam& team,
@@ -58,9 +67,10 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
   Warnings all;
   SearchWork search;
   if (answers.context.share) {  // nobody has all of S and K: small ones are found once more
-    all = advise_alone(answers.context.model, motion, true, team, search);
+    all = advise_alone(answers.context.model, motion, true, 0, team, search);
   } else {
     all = advise_on_spec(answers.context.spec);
+    add(advise_on_bounds(answers.context.spec), all);
     add(advise_on_units(answers.context.spec, motion), all);
     add(advise_on_posts(answers.context, motion), all);
     add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, search), all);

@@ -9,9 +9,13 @@
 
 namespace coordreq {
 
-/// Warnings that follow from the spec alone: grids that miss the ends of their domains; constants,
-/// definitions, inputs and disturbances that nothing uses.
+/// Warnings that follow from the spec alone: grids that miss the ends of their domains; states that jump at
+/// samples and decide what is safe between them; constants, definitions, inputs and disturbances that nothing
+/// uses.
 [[nodiscard]] Warnings advise_on_spec(const ProblemSpec& spec);
+
+/// Bounds of states in `safe` that lie within cells, with an origin or a step that makes them faces.
+[[nodiscard]] Warnings advise_on_bounds(const ProblemSpec& spec);
 
 /// Units of a small table that do not fit: a term of a derivative that is not in the unit of its state by
 /// that of time, sines of degrees; unknown units, and what constants multiply, are left alone. Periodic
@@ -32,10 +36,11 @@ namespace coordreq {
 /// @param work takes what the trials did: `helpers/advice` with `trials` and `work`, about a nanosecond each
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team, Json& work);
 
-/// All that is known without the answer; what posts show only where they are few. @param motion of the spec
+/// All that is known without the answer: from all posts where they are few, else from some of them.
+/// @param motion of the spec @param posts of look_ahead()
 /// @throws SpecError where the analysis does, as far as posts are looked at
 [[nodiscard]] Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion,
-                                     ThreadTeam& team);
+                                     std::int64_t posts, ThreadTeam& team);
 /// All of them. @param work takes counts of what was done for them. @pre as advise_on_answers()
 [[nodiscard]] Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion,
                               ThreadTeam& team, Json& work);

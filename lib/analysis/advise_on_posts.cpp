@@ -149,6 +149,9 @@ void advise_on_motion(const AnalysisContext& context, std::size_t i, const Sprea
   if (dimension.discrete || dimension.count < 3 || !moves_less_than_a_cell(spreads, is_sum)) return;
   if (!is_sum && stands_still(spreads)) return;
   const std::size_t state = context.abstraction->grid.state(i);
+  // At its fastest it moves by a cell, though the middle of no reachable set does.
+  constexpr double kRounding = 1e-6;
+  if (motion[state].cells >= 1 - kRounding) return;
   const DynamicsSpec& dynamics = context.spec.dynamics;
   found.push_back(
       {"motion", fmt::format("/states/{}", state),

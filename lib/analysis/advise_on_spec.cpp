@@ -4,6 +4,7 @@
 #include <set>
 
 #include "analysis/advice.hpp"
+#include "base/grouped.hpp"
 #include "base/json.hpp"
 #include "spec/names_behind.hpp"
 #include "spec/problem_spec.hpp"
@@ -105,6 +106,25 @@ void advise_on_names(const Node& root, const Json& document, Warnings& found) {
     for (const Node& object : root.elements(list)) look(kind, object["name"].text(), object.pointer());
 }
 
+/// States that jump at samples and decide what is safe between them.
+void advise_on_jumps(const ProblemSpec& spec, Warnings& found) {
+  if (spec.dynamics.time == Time::discrete || !spec.abstraction.between_samples) return;
+  std::vector<std::string> names;
+  for (const std::uint32_t slot : spec.safe.variables()) {
+    if (slot < spec.states.size() && spec.dynamics.update(slot) != nullptr)
+      names.push_back(spec.states[slot].name);
+  }
+  if (names.empty()) return;
+  const bool is_one = names.size() == 1;
+  found.push_back(
+      {"jump", "/safe",
+       fmt::format("'safe' depends on {}, which {} at the sampling instants: between two samples "
+                   "{} as at the first of them, so that what moves with {} is not seen on its way; "
+                   "a continuous state with an equation moves all the time",
+                   listed_words(names), is_one ? "jumps" : "jump", is_one ? "it counts" : "they count",
+                   is_one ? "it" : "them")});
+}
+
 }  // namespace
 
 Warnings advise_on_spec(const ProblemSpec& spec) {
@@ -114,6 +134,7 @@ Warnings advise_on_spec(const ProblemSpec& spec) {
   Warnings found;
   advise_on_state_grids(spec, found);
   advise_on_input_grids(spec, document.root(), found);
+  advise_on_jumps(spec, found);
   advise_on_names(document.root(), parse_json(spec.text, JsonComments::skipped), found);
   return found;
 }

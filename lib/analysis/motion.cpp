@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "base/index.hpp"
 #include "cell/random_stream.hpp"
@@ -117,6 +118,26 @@ class Ways {
   std::vector<Evaluator<double>> maps_;
 };
 
+/// Next values of the states that jump at samples, as their updates say.
+class Jumps {
+ public:
+  explicit Jumps(const SystemSpec& spec) {
+    for (std::size_t i = 0; i < spec.states.size(); ++i) {
+      const UpdateSpec* const update = spec.dynamics.update(i);
+      if (update != nullptr && !update->past) updates_.emplace_back(i, Evaluator<double>(update->value));
+    }
+  }
+
+  /// Calls `add(i, next)` for each of them.
+  template <class Add>
+  void for_each(const std::vector<double>& slots, const Add& add) {
+    for (auto& [i, update] : updates_) add(i, update.number(slots));
+  }
+
+ private:
+  std::vector<std::pair<std::size_t, Evaluator<double>>> updates_;
+};
+
 double six_digits(double value) {
   return std::stod(fmt::format("{:.6g}", value));
 }
@@ -126,15 +147,19 @@ double six_digits(double value) {
 std::vector<StateMotion> sample_motion(const SystemSpec& spec) {
   Starts starts(spec);
   Ways ways(spec);
+  Jumps jumps(spec);
   std::vector<StateMotion> all(spec.states.size());
   for (std::size_t k = 0; k < starts.count(); ++k) {
     const std::vector<double> begin = starts.next();
     const auto end = ways.end(begin);
+    const auto add = [&](std::size_t i, double next) {
+      const double moved = std::fabs(next - begin[i]);
+      if (std::isfinite(moved)) all[i].amount = std::max(all[i].amount, moved);
+    };
     for (std::size_t i = 0; end && i < all.size(); ++i) {
-      const double moved = std::fabs((*end)[i] - begin[i]);
-      if (std::isfinite(moved) && spec.dynamics.update(i) == nullptr)
-        all[i].amount = std::max(all[i].amount, moved);
+      if (spec.dynamics.update(i) == nullptr) add(i, (*end)[i]);
     }
+    jumps.for_each(begin, add);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].cells = all[i].amount / nearest_double(spec.states[i].grid.step);

@@ -15,9 +15,10 @@ struct StateMotion {
 };
 
 /// max over x, u and w of |x_i(tau) - x_i(0)|, before the rules for leaving the domain, for each state of the
-/// spec; 0 for one with an update. Tried at corners of the domain with the ends of all inputs and
-/// disturbances, all corners if they are few, and at points between: a fixed number of solutions, followed
-/// without a guarantee, so the greatest may be larger. Where a solution is undefined it is passed over.
+/// spec; of one with an update, how far it jumps; 0 for one that a memory keeps. Tried at corners of the
+/// domain with the ends of all inputs and disturbances, all corners if they are few, and at points between: a
+/// fixed number of solutions, followed without a guarantee, so the greatest may be larger. Where a solution
+/// is undefined it is passed over.
 [[nodiscard]] std::vector<StateMotion> sample_motion(const SystemSpec& spec);
 /// Solutions that sample_motion() follows.
 [[nodiscard]] std::size_t count_of_samples(const SystemSpec& spec);

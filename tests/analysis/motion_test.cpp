@@ -43,11 +43,15 @@ TEST(Motion, BeginsNoFartherOutThanALimitThatStopsIt) {
   EXPECT_NEAR(sample_motion(stopping)[0].amount, 10 * -std::expm1(-0.5), 1e-6);
 }
 
-TEST(Motion, OfAStateWithAnUpdateIsNone) {
+TEST(Motion, OfAStateWithAnUpdateIsHowFarItJumps) {
   const auto motion = sample_motion(
       spec_of("saturate", R"("time": "continuous", "equations": {"p": "u"}, "updates": {"n": "3 - n"})"));
   EXPECT_NEAR(motion[0].amount, 1, 1e-9);
-  EXPECT_EQ(motion[1].amount, 0);
+  EXPECT_EQ(motion[1].amount, 3);
+  const auto by_cell = sample_motion(
+      spec_of("saturate", R"("time": "continuous", "equations": {"p": "u"}, "updates": {"n": "if(p > 5, 2, n)"
+})"));
+  EXPECT_EQ(by_cell[1].amount, 2);
 }
 
 TEST(Motion, PassesOverWhatIsUndefined) {

@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 
-from program import CONFIGS, PROGRAM, SPEC, Case, spec_with, without_comments
+from program import CONFIGS, PROGRAM, ROOT, SPEC, Case, spec_with, without_comments
 
 X, Y = SPEC["states"]
 
@@ -128,6 +128,141 @@ class Cases(Case):
         self.assertEqual(self.both(spec), [("motion", "/states/1")])
         spec["states"] = [X, dict(Y, discrete=True)]
         self.assertEqual(self.both(spec), [])
+
+    def test_a_motion_of_just_a_cell_is_no_warning(self):
+        """Two carts whose speeds stop at 1 m/s, on cells that they cross in a period."""
+        spec = self.merge(vmax=1)
+        self.assertEqual([kind for kind, _ in self.both(spec) if kind == "motion"], [])
+        spec = self.merge(vmax=0.75)
+        self.assertEqual([kind for kind, _ in self.both(spec) if kind == "motion"], ["motion"] * 2)
+
+    def merge(self, vmax=2, step=0.25, speed="stop", **grid):
+        """Two carts that come to a merge at 0."""
+        states = []
+        for i in (1, 2):
+            states.append({"name": f"p{i}", "lower": -20, "upper": 2, "step": 0.5, "unit": "m", "outside": {"below": "saturate", "above": "safe"}})
+            states.append({"name": f"v{i}", "lower": 0, "upper": vmax, "step": step, "unit": "m/s", "outside": speed, **grid})
+        return {
+            "coordreq": 1, "name": "merge", "states": states,
+            "inputs": [{"name": f"a{i}", "values": [-1, -0.5, 0, 0.5], "unit": "m/s^2"} for i in (1, 2)],
+            "agents": [{"name": f"cart{i}", "inputs": [f"a{i}"]} for i in (1, 2)],
+            "dynamics": {"time": "continuous", "period": 0.5, "unit": "s", "equations": {"p1": "v1", "v1": "a1", "p2": "v2", "v2": "a2"}},
+            "safe": "not (abs(p1) <= 1.5 and abs(p2) <= 1.5)",
+            "abstraction": {"cells": "half_open", "between_samples": True},
+        }  # fmt: skip
+
+    def kept(self, spec):
+        self.write("spec.json", spec)
+        return json.loads(self.run_program("analyze", "spec.json", "--json", "-o", "out.h5").stdout)["invariant"]
+
+    def test_parked_carts_are_kept_by_a_face_at_the_standstill(self):
+        """The figures of the page on modelling."""
+        face = self.merge(vmax=1.875, lower=-0.125, origin=0.125)
+        figures = [self.kept(self.merge()), self.kept(self.merge(speed="saturate")), self.kept(face)]
+        self.assertEqual(figures, [105089, 154892, 156495])
+        page = (ROOT / "docs/how-to/modelling.md").read_text()
+        for figure in figures:
+            self.assertIn(f"{figure:,}", page)
+
+    def heating(self, **state):
+        return spec_with(
+            states=[{"name": "T", "lower": 16, "upper": 26, "step": 0.25, **state}, Y],
+            dynamics=dict(SPEC["dynamics"], equations={"T": "T + u", "y": "y + v"}),
+            safe="18 <= T and T <= 24",
+            abstraction={"cells": "half_open"},
+        )
+
+    def test_bounds_within_cells(self):
+        self.assertEqual(
+            self.texts("validate", self.heating(), "bound"),
+            [
+                "bounds of 'safe' lie within cells, which are not safe as a whole: T at 18 and 24; they are faces of cells "
+                'with "origin": 0.125 for T'
+            ],
+        )
+        self.assertEqual(self.texts("validate", self.heating(origin=0.125), "bound"), [])
+        # A bound that is no whole number of steps from the other takes a finer step.
+        spec = dict(self.heating(), safe="18 <= T and T <= 24.1")
+        (text,) = self.texts("validate", spec, "bound")
+        self.assertIn('with "step": 0.05 and "origin": 0.025 for T', text)
+        self.assertEqual(self.texts("validate", dict(self.heating(step=0.05, origin=0.025), safe=spec["safe"]), "bound"), [])
+        # Cells count by their centres, or points are cells.
+        self.assertEqual(self.texts("validate", dict(self.heating(), abstraction={"safe": "center"}), "bound"), [])
+
+    def test_a_function_outside_its_domain_in_a_large_problem(self):
+        spec = self.merge(speed="saturate")
+        spec["dynamics"]["equations"]["p1"] = "v1/p2"
+        self.write("spec.json", spec)
+        for arguments in ((), ("--posts", "1")):
+            result = self.run_program("validate", "spec.json", *arguments)
+            self.assertEqual(result.returncode, 3, result.stdout)
+            self.assertRegex(
+                result.stderr.decode().splitlines()[-1],
+                r"^coordreq: error: the equation of 'p1', 'v1/p2', is not defined everywhere .*division by a number in .*\(/dynamics/equations/p1\)$",
+            )
+        spec["dynamics"]["equations"]["p1"] = "v1*sqrt(4 + p2)"
+        self.write("spec.json", spec)
+        result = self.run_program("validate", "spec.json")
+        self.assertEqual(result.returncode, 3, result.stdout)
+        self.assertIn(b"the equation of 'p1'", result.stderr)
+        # What is defined everywhere is none.
+        spec["dynamics"]["equations"]["p1"] = "v1/(p2 + 30)"
+        self.write("spec.json", spec)
+        self.assertEqual(self.run_program("validate", "spec.json").returncode, 0)
+
+    def test_a_safe_set_without_a_state(self):
+        spec = self.merge()
+        spec["safe"] = "p1 >= 3 and p2 <= 1"
+        self.assertEqual(self.texts("validate", spec, "empty"), ["the safe set is empty: no state of the domain satisfies 'safe'"])
+        self.assertEqual(self.texts("validate", spec_with(safe="x >= 5"), "empty"), ["the safe set is empty on this grid"])
+        spec["safe"] = "p1 >= 1.9 and p2 <= -19.9"
+        self.assertEqual(self.texts("validate", spec, "empty"), [])
+
+    def test_posts_is_a_number(self):
+        self.write("spec.json", SPEC)
+        self.assert_fails(2, "expected a whole number from 1 to 1000000000, found '0' (--posts)", "validate", "spec.json", "--posts", "0")
+
+    def obstacle(self, clock):
+        """One that crosses the place of a robot in the middle of a period, by a clock that jumps, or not."""
+        t = {"name": "t", "lower": 0, "upper": 9, "step": 1, "outside": {"below": "unsafe", "above": "safe"}}
+        jumps = clock == "jumps"
+        return {
+            "coordreq": 1, "name": "obstacle",
+            "states": [dict(t, discrete=True) if jumps else t, {"name": "p", "lower": -5, "upper": 5, "step": 0.5, "outside": "unsafe"}],
+            "inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "robot", "inputs": ["u"]}],
+            "dynamics": {"time": "continuous", "period": 1, "unit": "s", "equations": {"p": "u", **({} if jumps else {"t": "1"})},
+                         **({"updates": {"t": "t + 1"}} if jumps else {})},
+            "safe": "abs(p - (2*t - 9)) >= 0.75", "abstraction": {"cells": "half_open", "between_samples": True},
+        }  # fmt: skip
+
+    def test_states_that_jump(self):
+        spec = self.obstacle("jumps")
+        (text,) = self.texts("validate", spec, "jump")
+        self.assertEqual(
+            text,
+            "'safe' depends on t, which jumps at the sampling instants: between two samples it counts as at the first of them, so "
+            "that what moves with it is not seen on its way; a continuous state with an equation moves all the time",
+        )
+        self.write("spec.json", spec)
+        named = "; t jumps at the sampling instants and keeps its value between\n"
+        self.assertIn(named, self.run_program("analyze", "spec.json", "-o", "out.h5").stdout.decode())
+        for command in (("validate", "spec.json"), ("info", "out.h5"), ("query", "out.h5", "--at", "t=1,p=0")):
+            self.assertIn(named, self.run_program(*command).stdout.decode(), command)
+        # Its motion is shown: a cell a period.
+        report = json.loads(self.run_program("validate", "spec.json", "--json").stdout)
+        self.assertEqual([own["amount"] for own in report["motion"]], [1, 0])
+        # A clock that moves does not jump; a robot at 0 is then not safe at t = 4, which crosses it before 5.
+        moving = self.obstacle("moves")
+        self.assertEqual(self.texts("validate", moving, "jump"), [])
+        safe = {}
+        for name, own in (("jumps", spec), ("moves", moving)):
+            self.write("spec.json", own)
+            self.run_program("analyze", "spec.json", "-o", "out.h5", "--quiet")
+            safe[name] = json.loads(self.run_program("query", "out.h5", "--at", "t=4,p=0", "--json").stdout)["invariant"]
+        self.assertEqual(safe, {"jumps": True, "moves": False})
+        # Asked at samples only it is where it is then.
+        spec["abstraction"] = {"cells": "half_open"}
+        self.assertEqual(self.texts("validate", spec, "jump"), [])
 
     def test_motion_in_tables_that_are_sums(self):
         """p moves with v and h: affine, and coupled with what is not."""
