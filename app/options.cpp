@@ -100,7 +100,9 @@ void declare_threads(Options& options, int& threads, const char* description) {
 }
 
 void declare_common(Options& options, CommonOptions& common, const CommonUse& use) {
-  if (use.threads) declare_threads(options, common.threads, "Threads to work with (default: all cores)");
+  if (use.threads)
+    declare_threads(options, common.threads,
+                    "Threads to work with (default: all processors that the process may use)");
   if (use.memory)
     options.option(common.max_memory, "--max-memory", "SIZE",
                    "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",

@@ -99,7 +99,7 @@ struct CommonUse {
 
 /// The options of most commands.
 struct CommonOptions {
-  int threads = 0;                          ///< 0: all cores
+  int threads = 0;                          ///< 0: all usable processors
   std::optional<std::uint64_t> max_memory;  ///< bytes
   bool json = false;
   bool quiet = false;

@@ -86,7 +86,7 @@ struct SpecReport {
   std::uint64_t memory_bytes = 0;   ///< estimate of the peak of `analyze`
 };
 
-/// @param threads that an analysis would have; 0: all cores
+/// @param threads that an analysis would have; 0: all usable processors
 [[nodiscard]] SpecReport inspect(const Model& model, int threads);
 [[nodiscard]] SpecReport inspect(const ProblemSpec& spec, int threads);
 

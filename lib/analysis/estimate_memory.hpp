@@ -15,7 +15,7 @@ namespace coordreq {
 /// holds already, with the spec as it was read, and what the types that will hold the rest tell of
 /// themselves. More rather than less. Counterexamples of usual length and steps that fit 8 bits are taken for
 /// granted.
-/// @param threads that will work, none of which is there yet; 0: all cores
+/// @param threads that will work, none of which is there yet; 0: all usable processors
 [[nodiscard]] double estimate_memory(const Model& model, int threads);
 
 /// estimate_memory() of one of several processes that share the work.
@@ -31,8 +31,8 @@ inline constexpr double kCheckpointBytes = 4.5 * 1024 * 1024;
 /// @throws LimitError with the two if more is needed than the limit
 void check_memory_limit(const ProblemSpec& spec, double needed, double limit, const std::string& by_whom);
 
-/// The number of threads that there is memory for, at most `threads`. @param threads 0: all cores @param
-/// saves whether the work will be saved in a checkpoint now and then
+/// The number of threads that there is memory for, at most `threads`. @param threads 0: all usable processors
+/// @param saves whether the work will be saved in a checkpoint now and then
 /// @throws LimitError with the estimate if there is no room for one
 [[nodiscard]] int threads_within(const Model& model, std::optional<std::uint64_t> limit, int threads,
                                  bool saves);

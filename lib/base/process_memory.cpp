@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
-#include <thread>
 
 #include "base/error.hpp"
+#include "base/processors.hpp"
 #include "base/sanitizers.hpp"
 #include "base/timer.hpp"
 
@@ -52,7 +52,7 @@ double memory_of_program() {
 }
 
 int all_threads(int threads) {
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return threads > 0 ? threads : usable_processors();
 }
 
 double memory_of_threads(int threads) {

@@ -12,10 +12,10 @@ namespace coordreq {
 /// Memory that this process holds now, with the parts of the program and its libraries that any work still
 /// brings into memory, in bytes.
 [[nodiscard]] double memory_of_program();
-/// The number of threads that `threads` stands for. @param threads 0: all cores
+/// The number of threads that `threads` stands for. @param threads 0: all usable processors
 [[nodiscard]] int all_threads(int threads);
 /// Memory of `threads` threads before they do any work, in bytes; the first thread is there already.
-/// @param threads 0: all cores
+/// @param threads 0: all usable processors
 [[nodiscard]] double memory_of_threads(int threads);
 
 /// 1536 -> "1.5 KiB", as memory is told in errors.
@@ -35,7 +35,7 @@ struct MemoryDemand {
   double once = 0;
   double of_thread = 0;  ///< more, for each thread
 };
-/// The number of threads that there is memory for, at most `threads`. @param threads 0: all cores
+/// The number of threads that there is memory for, at most `threads`. @param threads 0: all usable processors
 /// @throws LimitError if there is no room for one, as check_memory_need()
 [[nodiscard]] int threads_within(const std::string& subject, const MemoryDemand& demand, int threads,
                                  std::optional<std::uint64_t> limit);

@@ -126,8 +126,7 @@ struct ThreadTeam::State {
 };
 
 ThreadTeam::ThreadTeam(int threads) : state_(std::make_unique<State>()) {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int size = threads > 0 ? threads : cores;
+  const int size = all_threads(threads);
   state_->threads.reserve(static_cast<std::size_t>(size - 1));
   if (size == 1) return;
   const LimitMove room_for_stacks;

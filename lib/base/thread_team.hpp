@@ -24,9 +24,8 @@ class ThreadTeam {
   /// Told how many of the indices of a loop have been handed out.
   using Watch = std::function<void(std::int64_t done, std::int64_t count)>;
 
-  /// @param threads number of threads that work, the calling one included; 0 means all cores. Where the
-  /// system
-  ///   refuses some, the team is smaller.
+  /// @param threads number of threads that work, the calling one included; 0 means all processors that
+  ///   the process may use. Where the system refuses some, the team is smaller.
   explicit ThreadTeam(int threads = 0);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;

@@ -1,10 +1,12 @@
 """What analyze prints and writes."""
 
 import json
+import os
 import re
+import subprocess
 import unittest
 
-from program import CONFIGS, ROOT, SPEC, Case, spec_with, without_warnings
+from program import CONFIGS, PROGRAM, ROOT, SPEC, Case, spec_with, without_warnings
 
 CIRCLE = str(CONFIGS / "circle.json")
 GOLDEN = json.loads((ROOT / "tests/cli/circle_golden.json").read_text())
@@ -200,6 +202,13 @@ $""",
             self.assertEqual(list(work), ["sweeps", "rows_visited", "rows_skipped"])
             self.assertGreater(work["rows_visited"], 0)
         self.assertGreater(summary["peak_memory_bytes"], 2**20)
+
+    def test_threads_are_those_that_the_process_may_use(self):
+        self.write("spec.json", spec_with())
+        one = min(os.sched_getaffinity(0))
+        command = ["taskset", "--cpu-list", str(one), PROGRAM, "analyze", "spec.json", "--json", "--quiet"]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, check=True)
+        self.assertEqual(json.loads(done.stdout)["threads"], 1)
 
     def test_max_delay_truncates(self):
         self.write(
