@@ -72,11 +72,15 @@ std::string given_text(const Json& given) {
   return fmt::format("taken as given: {}\n", fmt::join(given.get<std::vector<std::string>>(), ", "));
 }
 
-/// How many reachable sets enclosures were asked about, and confirm.
-std::string confirmed_text(const Json& confirmed) {
+/// How many reachable sets enclosures were asked about, and confirm; how many there was no work left for.
+std::string confirmed_text(const Json& confirmed, const Json& work) {
   if (confirmed["of"] == 0) return "";
-  return fmt::format("confirmed: {} of {} reachable sets that are not exact\n",
-                     grouped(confirmed["reachable_sets"]), grouped(confirmed["of"]));
+  std::string text = fmt::format("confirmed: {} of {} reachable sets that are not exact\n",
+                                 grouped(confirmed["reachable_sets"]), grouped(confirmed["of"]));
+  if (work["left_open"] > 0)
+    text += fmt::format("the budget ended: {} were not looked at to the end, see --budget\n",
+                        grouped(work["left_open"]));
+  return text;
 }
 
 /// On what the verdict on the ways between the samples rests; empty if they do not matter.
@@ -128,6 +132,8 @@ Json verification_json(const Verification& result, const std::string& path, doub
   json["taken_as_given"] = result.given;
   json["confirmed"] = {{"reachable_sets", result.confirmed}, {"of", result.enclosed}};
   json["posts_computed"] = result.posts_computed;
+  json["work"] = {
+      {"spent", result.work.spent}, {"budget", result.work.budget}, {"left_open", result.work.left_open}};
   json["checks"] = Json::array();
   for (const Finding& finding : result.findings) json["checks"].push_back(finding_json(finding));
   json["threads"] = threads;
@@ -140,9 +146,9 @@ std::string verification_text(const Json& result) {
   const std::int64_t threads = number_of(result["threads"]);
   return fmt::format("{}\n{}{}{}{}{}\n{} ({:.2f} s on {} thread{})\n", findings_table(findings),
                      basis_text(result), tubes_text(result["between_samples"]),
-                     given_text(result["taken_as_given"]), confirmed_text(result["confirmed"]),
-                     examples(findings), verdict_cell(result), result["seconds"].get<double>(), threads,
-                     threads == 1 ? "" : "s");
+                     given_text(result["taken_as_given"]),
+                     confirmed_text(result["confirmed"], result["work"]), examples(findings),
+                     verdict_cell(result), result["seconds"].get<double>(), threads, threads == 1 ? "" : "s");
 }
 
 std::string not_confirmed_line(const Json& result) {

@@ -46,6 +46,7 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
     all.push_back({"empty", "/safe", "the safe set is empty on this grid"});
   if (finds_invariance) run_stages(invariance_stages(model.spec()), answers, {.team = team});
   add(advise_on_posts(answers.context, motion), all);
+  add(advise_on_numbering(answers.context), all);
   add(advise_on_unseen_motion(answers.context,
                               finds_invariance ? answers.get<Invariance>().invariant : answers.context.safe,
                               search),
@@ -73,6 +74,7 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
     add(advise_on_bounds(answers.context.spec), all);
     add(advise_on_units(answers.context.spec, motion), all);
     add(advise_on_posts(answers.context, motion), all);
+    add(advise_on_numbering(answers.context), all);
     add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, search), all);
   }
   work["helpers"]["unseen motion"] = {{"reads", search.reads}, {"solutions", search.followed}};

@@ -29,6 +29,10 @@ namespace coordreq {
 [[nodiscard]] Warnings advise_on_posts(const AnalysisContext& context,
                                        const std::vector<StateMotion>& motion);
 
+/// Discrete states of which some post holds a value that cannot follow, since posts are ranges. @pre as
+/// advise_on_posts(), on the whole grid. Cost: a pass over their tables, and a fixed amount of work
+[[nodiscard]] Warnings advise_on_numbering(const AnalysisContext& context);
+
 /// Warnings that follow from K and the delays: K is empty, or no cell tolerates any silence, with the changes
 /// that would help. To find these, one rule, disturbance, error or step after the other is relaxed on a copy
 /// with at most some 10^5 cells, within a fixed amount of work: the same on every machine. A relaxed problem

@@ -101,7 +101,7 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
       const bool hopeless = !patient && tries_ > kHopeTries && left / parts > kHope * most_steps;
       gave_up_ = left > 0 && (tries_ >= most_steps || hopeless);
       if (!hopeless) finish_step(left == 0);
-      gave_up_ = gave_up_ || (left > 0 && is_too_wide());
+      gave_up_ = gave_up_ || (left > 0 && (is_too_wide() || (patient && is_anywhere())));
       if (gave_up_) {
         fail(FlowFailure{false, fastest()});
         return false;

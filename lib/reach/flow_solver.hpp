@@ -63,6 +63,7 @@ class ValidatedFlow::Solver {
   // More work for a tighter result (refine_flow.cpp).
   void enclose(std::span<const Interval> slots, int halvings);
   [[nodiscard]] bool is_too_wide() const;
+  [[nodiscard]] bool is_anywhere() const;
   [[nodiscard]] double allowed_excess(std::size_t i) const;
   [[nodiscard]] bool is_tight() const;
   [[nodiscard]] bool is_smooth() const;

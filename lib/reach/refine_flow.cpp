@@ -29,6 +29,8 @@ constexpr double kHardly = 0.1;
 constexpr int kMostSplits = 2;
 /// A part of a box that leads to more steps of the grid on its way is not followed further.
 constexpr double kWidestPart = 100.0;
+/// Patience is at an end where a box leads to more steps of the grid than indices of cells can tell apart.
+constexpr double kAnywhere = 0x1p40;
 /// The neighbourhood of a box: the distance from its ends, relative to them.
 constexpr double kNeighbourhood = 1e-14;
 
@@ -71,6 +73,14 @@ bool ValidatedFlow::Solver::is_too_wide() const {
   if (!is_part_ || system_.steps.empty()) return false;
   for (std::size_t i = 0; i < n_; ++i) {
     if (now_[i].width() > kWidestPart * system_.steps[i]) return true;
+  }
+  return false;
+}
+
+/// Whether some state can be anywhere, as after growth by many powers of e.
+bool ValidatedFlow::Solver::is_anywhere() const {
+  for (std::size_t i = 0; i < system_.steps.size(); ++i) {
+    if (now_[i].width() > kAnywhere * system_.steps[i]) return true;
   }
   return false;
 }

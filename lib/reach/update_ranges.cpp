@@ -32,6 +32,18 @@ std::vector<bool> value_nodes(const Program& program) {
   return needed;
 }
 
+/// What conditions are asked of: cells, inputs, and all that disturbances can be.
+std::vector<ConditionAxis> axes_of(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                                   bool centres) {
+  std::vector<ConditionAxis> axes =
+      condition_axes(grid, inputs, centres ? Sampling::centres : Sampling::closed_cells);
+  for (const DisturbanceSpec& disturbance : spec.disturbances) {
+    const RationalInterval range{.lower = disturbance.lower, .upper = disturbance.upper};
+    axes.push_back({1, [range](std::int64_t) -> ConditionAxis::Ranges { return {range}; }});
+  }
+  return axes;
+}
+
 /// Asked for before all else that needs it.
 const UpdateSpec& update_of(const SystemSpec& spec, std::size_t state) {
   REQUIRES(spec.dynamics.update(state) != nullptr);
@@ -54,8 +66,7 @@ UpdateRanges::UpdateRanges(const SystemSpec& spec, const UniformGrid& grid, cons
   const UpdateSpec& update = update_of(spec, state);
   past_ = update.past ? &*update.past : nullptr;
   const bool centres = past_ != nullptr && spec.abstraction.safe == Membership::center;
-  const std::vector<ConditionAxis> axes =
-      condition_axes(grid, inputs, centres ? Sampling::centres : Sampling::closed_cells);
+  const std::vector<ConditionAxis> axes = axes_of(spec, grid, inputs, centres);
   if (past_ != nullptr) {
     conditions_.emplace_back(past_->first, axes);
     if (past_->kind == PastOperator::Kind::since) conditions_.emplace_back(past_->second, axes);
@@ -79,7 +90,8 @@ IndexRange UpdateRanges::at(std::span<const std::int64_t> indices, bool is_new) 
   if (past_ != nullptr) return kept(indices);
   const auto known = known_.find(truths_);
   if (known != known_.end()) return known->second;
-  return known_.emplace(truths_, range_of(indices)).first->second;
+  const std::vector<std::int64_t> all = indices_of(indices);
+  return known_.emplace(truths_, raw_range(target_, all.front(), all.back())).first->second;
 }
 
 IndexRange UpdateRanges::kept(std::span<const std::int64_t> indices) const {
@@ -92,21 +104,28 @@ IndexRange UpdateRanges::kept(std::span<const std::int64_t> indices) const {
   return raw_range(target_, k, k);
 }
 
-IndexRange UpdateRanges::range_of(std::span<const std::int64_t> indices) {
+std::vector<std::int64_t> UpdateRanges::all_at(std::span<const std::int64_t> indices) {
+  truths_.clear();
+  for (CellTruth& condition : conditions_) truths_.push_back(condition.at(indices));
+  if (past_ != nullptr) return {std::int64_t{kept(indices).first}};
+  return indices_of(indices);
+}
+
+/// @pre truths_ are those at the cell
+std::vector<std::int64_t> UpdateRanges::indices_of(std::span<const std::int64_t> indices) {
   for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
     if (!needed_[i]) continue;
     values_[i].clear();
     find_values(i, indices);
   }
-  std::int64_t least = INT64_MAX;
-  std::int64_t greatest = INT64_MIN;
+  std::vector<std::int64_t> result;
   for (const RationalInterval& value : values_.back()) {
     const Rational index = (value.lower - target_.first) / target_.step;
     if (!value.is_point() || !is_integer(index)) fail(value, indices);
-    least = std::min(least, floor_to_int(index));
-    greatest = std::max(greatest, floor_to_int(index));
+    result.push_back(floor_to_int(index));
   }
-  return raw_range(target_, least, greatest);
+  std::sort(result.begin(), result.end());
+  return result;
 }
 
 /// From the values of the nodes before.
@@ -157,6 +176,7 @@ Rational UpdateRanges::value_at(std::uint32_t slot, std::span<const std::int64_t
 void UpdateRanges::fail(const RationalInterval& value, std::span<const std::int64_t> indices) const {
   std::string place;
   for (const std::uint32_t slot : program_.variables()) {
+    if (slot >= spec_.states.size() + spec_.inputs.size()) continue;  // a disturbance, of all its values
     const bool is_state = slot < spec_.states.size();
     place += fmt::format("{}{} = {}", place.empty() ? " at " : ", ",
                          is_state ? spec_.states[slot].name : inputs_[slot - spec_.states.size()].name,

@@ -19,7 +19,8 @@ namespace coordreq {
 /// Where an update leads from one cell after the other (contract, section 6): the hull of the indices of all
 /// values that its branches give, where a condition that the cell leaves undecided takes both. Exact:
 /// discrete states and inputs are points, and nothing else is read outside of conditions. Conditions are
-/// asked of the closed cell, widened by the measurement error; several of them branch independently.
+/// asked of the closed cell, widened by the measurement error, and of all values of disturbances; several of
+/// them branch independently.
 ///
 /// The next value of a memory is one value: it follows from the truth of its conditions at the cell, which
 /// has three values. Conditions are decided as `safe` is.
@@ -35,12 +36,14 @@ class UpdateRanges {
   ///   of conditions since the last call
   /// @throws SpecError if a branch that counts gives no grid value
   [[nodiscard]] IndexRange at(std::span<const std::int64_t> indices, bool is_new);
+  /// All that at() is the hull of, ascending; not cut to the range of 32 bits.
+  [[nodiscard]] std::vector<std::int64_t> all_at(std::span<const std::int64_t> indices);
 
  private:
   using Values = std::vector<RationalInterval>;  ///< all different; points, as they should be
 
   [[nodiscard]] IndexRange kept(std::span<const std::int64_t> indices) const;
-  [[nodiscard]] IndexRange range_of(std::span<const std::int64_t> indices);
+  [[nodiscard]] std::vector<std::int64_t> indices_of(std::span<const std::int64_t> indices);
   void find_values(std::size_t node, std::span<const std::int64_t> indices);
   void add_value(std::size_t node, const RationalInterval& value);
   [[nodiscard]] Rational value_at(std::uint32_t slot, std::span<const std::int64_t> indices) const;

@@ -85,16 +85,21 @@ Program zero(const std::string& text) {
   return program;
 }
 
-/// The first state that is read outside of the conditions of `if` and is not discrete; nothing if there is
-/// none.
-std::optional<std::size_t> box_read_as_number(const Program& program, const std::vector<StateSpec>& states) {
+/// The slot of a variable that is not a point in a cell: a state that is not discrete, or a disturbance.
+bool is_box(const Scope& scope, const std::vector<StateSpec>& states, std::uint32_t slot) {
+  return slot < states.size() ? !states[slot].discrete : scope.is_disturbance(slot);
+}
+
+/// The first such variable that is read outside of the conditions of `if`; nothing if there is none.
+std::optional<std::size_t> box_read_as_number(const Scope& scope, const Program& program,
+                                              const std::vector<StateSpec>& states) {
   std::vector<bool> needed(program.nodes.size(), false);
   needed.back() = true;
   std::optional<std::size_t> found;
   for (std::size_t i = needed.size(); i-- > 0;) {
     const Program::Node& node = program.nodes[i];
     if (!needed[i]) continue;
-    if (node.op == Operator::variable && node.a < states.size() && !states[node.a].discrete) found = node.a;
+    if (node.op == Operator::variable && is_box(scope, states, node.a)) found = node.a;
     const std::size_t operands = operand_count(node.op);
     if (operands > 0 && node.op != Operator::if_else) needed[node.a] = true;
     if (operands > 1) needed[node.b] = true;
@@ -103,12 +108,13 @@ std::optional<std::size_t> box_read_as_number(const Program& program, const std:
   return found;
 }
 
-/// The equation of a discrete state in discrete time asks in conditions where continuous states are.
+/// The equation of a discrete state in discrete time asks in conditions where continuous states are, or what
+/// disturbances do.
 bool is_update(const Scope& scope, const Program& equation, const std::vector<StateSpec>& states) {
   const std::vector<std::uint32_t> slots = equation.variables();
-  const auto is_box = [&](std::uint32_t slot) { return slot < states.size() && !states[slot].discrete; };
-  return std::any_of(slots.begin(), slots.end(), is_box) && !scope.is_disturbance(slots.back()) &&
-         !box_read_as_number(equation, states);
+  return std::any_of(slots.begin(), slots.end(),
+                     [&](std::uint32_t slot) { return is_box(scope, states, slot); }) &&
+         !box_read_as_number(scope, equation, states);
 }
 
 void check_updates(const Node& updates, const Node& equations, Time time,
@@ -136,7 +142,7 @@ UpdateSpec read_update(const Scope& scope, const Node& node, const StateSpec& st
         node.pointer());
   }
   UpdateSpec update{scope.expression(node, ExpectedType::number, Over::states_and_inputs)};
-  if (const auto box = box_read_as_number(update.value, states)) {
+  if (const auto box = box_read_as_number(scope, update.value, states)) {
     throw SpecError(
         fmt::format("expected discrete states and inputs outside of the conditions of 'if', found "
                     "the state {}",

@@ -9,10 +9,10 @@
 namespace coordreq {
 
 /// Work is counted, not timed, so that neither other programs nor threads have a say in what is confirmed. A
-/// unit is about what one operation of an expression takes in ball arithmetic.
+/// unit is about what one operation takes in ball arithmetic.
 using Work = std::int64_t;
 /// Units that a slow core does in a second, or more.
-inline constexpr double kWorkOfSecond = 3e7;
+inline constexpr double kWorkOfSecond = 4e7;
 [[nodiscard]] inline Work work_of_seconds(double seconds) {
   constexpr double kMost = 1e18;
   return static_cast<Work>(std::min(seconds * kWorkOfSecond, kMost));
@@ -31,6 +31,16 @@ class Budget {
     return is_over() ? 0 : std::clamp<Work>(left_ / std::max<std::int64_t>(questions, 1), 1, most_of_one());
   }
   void spend(Work used) { left_ -= used; }
+  [[nodiscard]] Work all() const { return all_; }
+  [[nodiscard]] Work spent() const { return all_ - left_; }
+  /// How many posts are left open because it was over.
+  [[nodiscard]] std::int64_t left_open() const { return left_open_; }
+  void leave_open(std::int64_t posts) { left_open_ += posts; }
+  /// Takes from this budget what has come of a part of it.
+  void settle(const Budget& part) {
+    spend(part.spent());
+    leave_open(part.left_open());
+  }
   /// The part of this budget for `some` of `all` units of work.
   [[nodiscard]] Budget part(std::int64_t some, std::int64_t all) const {
     const double share = static_cast<double>(some) / static_cast<double>(std::max<std::int64_t>(all, 1));
@@ -42,6 +52,7 @@ class Budget {
 
   Work all_;
   Work left_;
+  std::int64_t left_open_ = 0;
 };
 
 /// Answers one question: may take `most`, if that is 0 nothing. @returns what it took

@@ -65,9 +65,8 @@ CheckedTubes check_tubes(const ProblemSpec& spec, const UniformGrid& grid, const
     std::optional<TubeFinding> found = check_corner_tubes(question, team);
     if (!found) {
       Budget part = budget.part(1, static_cast<std::int64_t>(grid.size() - i));
-      const Work before = part.left();
       found = check_outward_tubes(question, part, team);
-      budget.spend(before - part.left());
+      budget.settle(part);
     }
     result.exact = result.exact && found && found->exact;
     if (found) {

@@ -11,6 +11,8 @@ namespace coordreq {
 namespace {
 
 constexpr slong kMostPower = 64;
+/// Operations in a function without kinks.
+constexpr std::size_t kOfFunction = 12;
 
 Arb constant_term(const ArbSeries& a) {
   return a[0];
@@ -158,7 +160,11 @@ ExpressionSeries::ExpressionSeries(const Program& program)
   for (std::size_t n = 0; n < program.nodes.size(); ++n) {
     const Program::Node& node = program.nodes[n];
     if (node.op == Operator::constant) values_[n].assign(Arb(program.constants[node.a]));
-    if (!is_condition(node.op) && !is_extended(n)) ++repeated_;
+    const bool is_function =
+        is_unary_function(node.op) && node.op != Operator::negate && node.op < Operator::absolute;
+    const std::size_t operations = is_function ? kOfFunction : 1;
+    operations_ += operations;
+    if (!is_condition(node.op) && !is_extended(n)) repeated_ += operations;
   }
 }
 

@@ -34,8 +34,9 @@ class ExpressionSeries {
   const ArbSeries& extend(std::span<const ArbSeries> slots, slong length);
   /// Smoothness of the last result. Where it is not analytic, coefficients from 2 on mean nothing.
   [[nodiscard]] Smoothness smoothness() const { return smoothness_; }
-  /// Number of operations, and of those that extend() carries out anew.
-  [[nodiscard]] std::size_t operations() const { return values_.size(); }
+  /// Number of operations, and of those that extend() carries out anew; a function like sin counts as
+  /// several.
+  [[nodiscard]] std::size_t operations() const { return operations_; }
   [[nodiscard]] std::size_t repeated_operations() const { return repeated_; }
 
  private:
@@ -58,6 +59,7 @@ class ExpressionSeries {
   const Program* program_;
   std::vector<ArbSeries> values_;
   std::vector<Truth> truths_;
+  std::size_t operations_ = 0;
   std::size_t repeated_ = 0;
   Smoothness smoothness_ = Smoothness::analytic;
 };

@@ -6,6 +6,11 @@
 namespace coordreq {
 namespace {
 
+/// Work on a box beside that on the equation: some is copied, a hull taken of each variable.
+Work work_of_extreme(const SpanBox& box) {
+  return 20 + 8 * static_cast<Work>(box.size());
+}
+
 Extreme natural_extreme(SeriesField& field, const SpanBox& box, const Arb& natural, bool greatest) {
   Extreme result{.bound = greatest ? natural.upper() : natural.lower()};
   for (const ArbSpan& span : box) result.start.push_back(span.middle());
@@ -36,6 +41,7 @@ Extreme mean_value_extreme(SeriesField& field, std::size_t equation, const SpanB
 
 Extreme extreme_of(SeriesField& field, std::size_t equation, const SpanBox& box,
                    const std::optional<std::vector<Arb>>& slopes, bool greatest) {
+  field.add_work(work_of_extreme(box));
   std::optional<Extreme> mean;
   if (slopes) mean = mean_value_extreme(field, equation, box, *slopes, greatest);
   const auto is_zero = [](double excess) { return excess == 0.0; };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -89,6 +90,7 @@ class OutwardPosts {
       tell(0);
       run_round(kRounds[round], budget, provers, tell, team);
     }
+    budget.leave_open(left_open_);
     std::vector<Finding> findings;
     for (const Tally& tally : tallies_) findings.push_back(tally.finding());
     return findings;
@@ -178,6 +180,7 @@ class OutwardPosts {
         continue;
       }
       open.settle(c);
+      if (over) left_open_ += static_cast<std::int64_t>(all[c].places.size());
       for (const std::int64_t place : all[c].places) note(all[c].claim.target, place, proofs[c]);
     }
     return settled;
@@ -295,7 +298,8 @@ class OutwardPosts {
   SpanBox slots_;
   PieceChoices choices_;
   std::vector<Open> open_;
-  std::deque<Tally> tallies_;  ///< [target]
+  std::deque<Tally> tallies_;                ///< [target]
+  std::atomic<std::int64_t> left_open_ = 0;  ///< entries for which there was no work left
   bool is_last_ = false;
 };
 
@@ -338,10 +342,9 @@ std::vector<std::optional<Finding>> check_outward_posts(const std::vector<PostQu
     for (const std::size_t q : members[g]) together.push_back(questions[q]);
     const auto own = static_cast<std::int64_t>(together.front().claimed->entries.size());
     Budget part = budget.part(own, entries);
-    const Work before = part.left();
     std::vector<Finding> found =
         OutwardPosts(std::move(together), std::move(groups[g])).run(part, progress, team);
-    budget.spend(before - part.left());
+    budget.settle(part);
     entries -= own;
     for (std::size_t k = 0; k < found.size(); ++k) findings[members[g][k]] = std::move(found[k]);
   }

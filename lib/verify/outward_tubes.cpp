@@ -51,6 +51,7 @@ class OutwardTubes {
       check(Odometer(choices_.counts(), asked_[static_cast<std::size_t>(i)]), before + most, *flow);
       return flow->work() - before;
     });
+    budget.leave_open(left_open_);
     return tally_.finding(false);
   }
 
@@ -63,6 +64,7 @@ class OutwardTubes {
     for (; !claimed_.find(place); place += stride) ++k;
     const bool unbounded = tally_.is_unbounded(place);
     std::vector<OwnTube> own;
+    const bool is_over = flow.work() >= end;
     for (const Effort& effort : kEfforts) {
       if (unbounded || flow.work() >= end || tally_.is_enough(place, k, own)) break;
       std::optional<std::vector<OwnTube>> next = tubes(choice, flow, effort);
@@ -71,7 +73,9 @@ class OutwardTubes {
     for (; k < (alike_ ? target_.count : 1); ++k, place += stride) {
       if (!claimed_.find(place)) continue;
       if (unbounded) tally_.add_unbounded();
-      if (!unbounded) tally_.add(place, k, own);
+      if (unbounded) continue;
+      tally_.add(place, k, own);
+      if (is_over) ++left_open_;
     }
   }
 
@@ -121,6 +125,7 @@ class OutwardTubes {
   std::vector<std::int64_t> asked_;  ///< numbers of choices
   SpanBox slots_;
   TubeTally tally_;
+  std::atomic<std::int64_t> left_open_ = 0;            ///< tubes for which there was no work left
   std::size_t moving_ = 0;                             ///< place among the moving states
   std::size_t own_ = 0;                                ///< among the variables of choices_
   std::vector<std::vector<RationalInterval>> places_;  ///< [own index][piece]

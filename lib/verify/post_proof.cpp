@@ -28,6 +28,9 @@ const std::string& name_of(const SystemSpec& spec, std::uint32_t slot) {
 }
 
 constexpr std::size_t kCuts = 4;  ///< of each variable
+/// A piece that has been cut so often and still does not fit is next to a point: more cuts are of no use to
+/// it, only more steps, and without it the whole is not proven.
+constexpr std::size_t kMostCuts = 40;
 
 /// Moves the claims that are not proven elsewhere to what is left: those that are open there.
 void leave(OpenPart& part, const std::vector<PostProof>& proofs, std::vector<OpenPart>& left) {
@@ -59,20 +62,23 @@ PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const Po
 }
 
 /// Proves pieces one after the other, and cuts those where something does not fit. One that may not be cut is
-/// left, with all others for the claims that are open on it: these are not proven this time.
+/// left, with all others for the claims that are open on it: these are not proven this time. The next time it
+/// comes first, so that what has no chance costs one enclosure.
 std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
                                          std::vector<OpenPart>& parts, const PostEffort& effort, Work most) {
   const Work end = work() + most;
   std::vector<PostProof> proofs(claims.size());
   std::vector<Piece> pending;
-  for (OpenPart& part : parts) pending.push_back(piece_of(box, std::move(part)));
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part)
+    pending.push_back(piece_of(box, std::move(*part)));
   parts.clear();
   for (int boxes = 1; !pending.empty(); ++boxes) {
     Piece piece = std::move(pending.back());
     pending.pop_back();
     leave(piece.part, proofs, parts);
     if (piece.part.claims.empty()) continue;
-    const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && work() < end;
+    const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && work() < end &&
+                         piece.part.cuts.size() < kMostCuts;
     std::vector<PostProof> own(claims.size());
     const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
     std::erase_if(piece.part.claims, [&](std::uint32_t c) {

@@ -13,6 +13,7 @@ slong order_for(double tolerance) {
 }
 
 constexpr int kPicardTries = 30;
+constexpr Work kOfPicard = 12;  ///< operations of a try, a state, beside its derivative
 constexpr std::size_t kMostKnown = 1 << 14;
 
 Arb from_zero(const Arb& duration) {
@@ -52,6 +53,7 @@ std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const A
   const Arb time = from_zero(duration);
   std::vector<Arb> next(field.size());
   for (int attempt = 0; attempt < kPicardTries; ++attempt) {
+    field.add_work(kOfPicard * static_cast<Work>(field.size()));
     bool inside = true;
     for (std::size_t i = 0; i < field.size(); ++i) {
       const std::uint32_t slot = field.variables()[i];

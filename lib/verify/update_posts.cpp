@@ -211,6 +211,10 @@ PostTable update_posts(const SystemSpec& spec, const UniformGrid& grid, const In
       std::vector<SlotBox> pieces;
       for (const Rational& value : choices.slots(choice))
         pieces.push_back({{.lower = value, .upper = value}});
+      for (const std::size_t l : influences.disturbances) {
+        const DisturbanceSpec& w = spec.disturbances[l];
+        pieces[spec.disturbance_slot(l)] = {{.lower = w.lower, .upper = w.upper}};
+      }
       all.for_each(choices.position(choice), std::nullopt,
                    [&](const std::vector<std::int64_t>& cell, std::int64_t place) {
                      for (std::size_t j = 0; j < cell.size(); ++j)

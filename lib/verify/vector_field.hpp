@@ -34,6 +34,8 @@ class SeriesField {
   [[nodiscard]] std::size_t size() const { return equations_.size(); }
   /// Done so far.
   [[nodiscard]] Work work() const { return work_; }
+  /// Counts operations of others that go with what it does.
+  void add_work(Work of_others) { work_ += of_others; }
   /// Slots of x, then of w.
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
 

@@ -65,6 +65,7 @@ class Verifier {
     report({.stage = "posts"});
     find_posts();
     if (spec_.abstraction.between_samples) find_tubes();
+    result_.work = {.spent = budget_->spent(), .budget = budget_->all(), .left_open = budget_->left_open()};
     if (analysis_) result_.posts_computed = analysis_->entries_built();
     check_answers(make_posts(grid_, inputs_, tables_));
     return std::move(result_);
@@ -125,9 +126,8 @@ class Verifier {
     const Work most = work_of_seconds(options_.budget_seconds.value_or(VerifyOptions::kDefaultBudget));
     budget_.emplace(most);
     Budget budget = budget_->part(1, spec_.abstraction.between_samples ? 2 : 1);
-    const Work before = budget.left();
     prove(enclosed, stored ? "abstraction " : "reachable sets ", budget, findings);
-    budget_->spend(before - budget.left());
+    budget_->settle(budget);
     for (std::optional<Finding>& finding : findings) {
       if (finding) result_.findings.push_back(std::move(*finding));
     }

@@ -10,6 +10,7 @@
 #include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
 #include "spec/spec_types.hpp"
+#include "verify/budget.hpp"
 
 namespace coordreq {
 
@@ -62,6 +63,12 @@ struct Verification {
   std::int64_t enclosed = 0;        ///< reachable sets that are not exact and were looked at
   std::int64_t confirmed = 0;       ///< how many of them the verifier's own enclosures confirm
   std::int64_t posts_computed = 0;  ///< how many posts of the analysis, a state each, were worked out anew
+  /// Of enclosures, in units of work.
+  struct {
+    Work spent = 0;
+    Work budget = 0;
+    std::int64_t left_open = 0;  ///< reachable sets that are not confirmed because the budget was over
+  } work;
   std::vector<Finding> findings;
 
   [[nodiscard]] Verdict verdict() const;

@@ -298,6 +298,36 @@ class Cases(Case):
         (own,) = [own for own in self.warnings("analyze", spec) if own["kind"] == kind]
         return own["message"]
 
+    def test_numbers_of_rooms_that_matter(self):
+        def rooms(equation, step=1, **changes):
+            room = {"name": "room", "lower": 0, "upper": 4 * step, "step": step, "discrete": True, "outside": "unsafe"}
+            return spec_with(states=[{**room, **changes}, Y], disturbances=[{"name": "w", "lower": -1, "upper": 1}],
+                             dynamics=dict(SPEC["dynamics"], equations={"room": equation, "y": "y + u + v"}),
+                             safe="y <= 4")  # fmt: skip
+
+        start = "successor sets are ranges of numbers, so that it matters how the values of room are numbered: "
+        end = "; give neighbouring numbers to values that can follow together"
+        self.assertEqual(
+            self.texts("analyze", rooms("if(room == 1 and w > 0, 3, room)"), "numbering"),
+            [start + "from room = 1 it can become 1 or 3, and the successor set holds 2 as well" + end],
+        )
+        self.assertEqual(
+            self.texts("validate", rooms("if(room == 2 and w > 0, 8, room)", 2), "numbering"),
+            [start + "from room = 2 it can become 2 or 8, and the successor set holds 4 as well" + end],
+        )
+        # Neighbours, values that are certain, and what ends in the same cells.
+        for equation, more in (
+            ("if(room == 1 and w > 0, 2, room)", {}),
+            ("if(room == 1 and w > 2, 3, room)", {}),
+            ("if(w > 0, if(w > 0.5, 1, 3), 2)", {}),
+            ("if(room == 1 and w > 0, 9, 0)", {}),
+            ("if(room == 1 and w > 0, 9, 4)", {"outside": "saturate"}),
+            ("if(room == 4 and w > 0, 5, room)", {"outside": "periodic", "lower": 0, "upper": 5, "count": 5, "step": None}),
+        ):
+            spec = rooms(equation, **more)
+            spec["states"][0] = {key: value for key, value in spec["states"][0].items() if value is not None}
+            self.assertEqual(self.texts("analyze", spec, "numbering"), [], equation)
+
     def test_an_empty_invariance_set_and_what_helps(self):
         equations = {"x": "x + 2*u + 5", "y": "y + v"}
         spec = spec_with(dynamics=dict(SPEC["dynamics"], equations=equations))

@@ -143,6 +143,23 @@ class Cases(Case):
             self.assertEqual(delay[0, :, 0].tolist(), [min(steps, 1), min(steps, 2)])
             self.assertEqual(table.tolist(), rows)
 
+    def test_no_delay_is_longer_than_the_search(self):
+        # B_0 = {0, 1, 2}, B_1 = {0, 1}, B_2 is empty, so that F is known; from 2 agents only leave for good.
+        spec = {**TOGGLE, "states": [{"name": "x", "lower": 0, "upper": 2, "step": 1, "discrete": True,
+                                      "outside": {"below": "unsafe", "above": "safe"}}],
+                "inputs": [{"name": "u", "values": [0, 1]}, {"name": "v", "values": [0]}],
+                "agents": [{"name": "a", "inputs": ["u"], "sees": []}, {"name": "b", "inputs": ["v"], "sees": []}],
+                "dynamics": {"time": "discrete", "period": 1,
+                             "equations": {"x": "if(x < 2, if(u == 0, 2, -1), if(u == 1, 3, -1))"}},
+                "safe": "true"}  # fmt: skip
+        for steps, longest in ((1, 1), (2, 2), (3, 2**15 - 1), (None, 2**15 - 1)):
+            summary = self.results({**spec, "coordination": {"max_delay": steps}})
+            (delay,) = self.arrays("blind_delay")
+            self.assertEqual(delay[0].tolist(), [1, 1, longest], steps)
+            self.assertEqual(summary["partitions"][0]["blind"]["F"], 2 if steps != 1 else None)
+            verification = self.run_program("verify", "r.h5", "--quiet")
+            self.assertEqual((verification.returncode, verification.stderr), (0, b""), steps)
+
     def test_an_analysis_that_was_broken_off_ends_in_the_same_file(self):
         self.results(example("crossing.json", []))
         whole = (self.folder / "r.h5").read_bytes()

@@ -285,7 +285,7 @@ class Cases(PageCase):
         self.assertEqual(parked, {"cells": False, "set-point": True})
 
     def test_a_disturbance_that_decides_a_discrete_state(self):
-        """The way round that the spec reference tells, and the error without it."""
+        """In a condition, as the spec reference tells, or by way of a state; elsewhere it is refused."""
         cell = {"name": "luck", "lower": 0, "upper": 0, "step": 2, "outside": "unsafe"}
         spec = {
             "coordreq": 1, "name": "luck",
@@ -301,6 +301,12 @@ class Cases(PageCase):
             self.assertEqual([int(file["abstraction/n"][side][1, 0, 0]) for side in ("first", "last")], [1, 2])
         self.assertEqual(self.run_program("verify", "out.h5", "--quiet").returncode, 0)
         spec["dynamics"]["equations"]["n"] = "n - take + if(w > 0, 1, 0)"
+        self.write("spec.json", spec)
+        self.analyze("spec.json", "-o", "out.h5")
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertEqual([int(file["abstraction/n"][side][1, 0]) for side in ("first", "last")], [1, 2])
+        self.assertEqual(self.run_program("verify", "out.h5", "--quiet").returncode, 0)
+        spec["dynamics"]["equations"]["n"] = "n - take + w + 1/2"
         self.write("spec.json", spec)
         result = self.run_program("analyze", "spec.json")
         self.assertIn(b"the next value of the discrete state 'n' is in [0, 1]", result.stderr)

@@ -77,8 +77,9 @@ class Cases(Case):
         self.assertEqual(
             list(summary),
             ["file", "name", "holds", "verdict", "cells", "cells_checked", "reachable_sets", "between_samples",
-             "not_independent", "taken_as_given", "confirmed", "posts_computed", "checks", "threads", "seconds"],
+             "not_independent", "taken_as_given", "confirmed", "posts_computed", "work", "checks", "threads", "seconds"],
         )  # fmt: skip
+        self.assertEqual(summary["work"], {"spent": 0, "budget": 60 * 40_000_000, "left_open": 0})
         self.assertEqual((summary["name"], summary["holds"], summary["reachable_sets"]), ("small", True, "exact"))
         self.assertEqual((summary["verdict"], summary["confirmed"]), ("holds", {"reachable_sets": 0, "of": 0}))
         self.assertEqual(
@@ -386,6 +387,41 @@ class Cases(Case):
         self.assertEqual(self.verify("results.h5", "--strict", "--quiet").returncode, 0)
         text = self.verify("results.h5").stdout.decode()
         self.assertIn("\nconfirmed: 125 of 125 reachable sets that are not exact\n", text)
+
+    def fast(self, **changes):
+        """What moves by millions of cells in a period, so that no number of steps of the same length follows it."""
+        return {
+            "coordreq": 1, "name": "fast",
+            "states": [{"name": "x", "lower": -0.3, "upper": 0.2, "step": 0.1, "origin": 0, "outside": "stop"},
+                       {"name": "y", "lower": 0, "upper": 3, "step": 1, "outside": "stop"}],
+            "inputs": [{"name": "u", "values": ["1e-300"]}], "agents": [{"name": "one", "inputs": ["u"]}],
+            "dynamics": {"time": "continuous", "period": 100, "equations": {"x": "1e8 + u*y/3", "y": "1e3*y*x"}},
+            "safe": "true", "output": {"abstraction": True},
+            **changes,
+        }  # fmt: skip
+
+    def test_work_is_bounded_and_told(self):
+        self.results(self.fast())
+        summary = json.loads(self.verify("results.h5", "--json").stdout)
+        self.assertTrue(summary["holds"])
+        self.assertLess(summary["confirmed"]["reachable_sets"], summary["confirmed"]["of"])
+        # Sets without hope take a small part of the budget, so that it does not end.
+        self.assertEqual(summary["work"]["left_open"], 0)
+        self.assertLess(0, summary["work"]["spent"])
+        self.assertLess(summary["work"]["spent"], summary["work"]["budget"] / 4)
+        # A smaller one holds, but for a piece of each set, which is finished once it is begun.
+        for seconds in (0.01, 0.1):
+            result = self.verify("results.h5", "--json", "--budget", str(seconds))
+            work = json.loads(result.stdout)["work"]
+            self.assertEqual(work["budget"], round(seconds * 40_000_000))
+            self.assertLess(work["spent"], work["budget"] + 4_000_000)
+            self.assertGreater(work["left_open"], 0)
+        text = self.verify("results.h5", "--budget", "0.01").stdout.decode()
+        self.assertRegex(text, r"\nthe budget ended: [0-9]+ were not looked at to the end, see --budget\n")
+        # Whatever the number of threads.
+        spent = [json.loads(self.verify("results.h5", "--json", "--budget", "0.1", "--threads", n).stdout)["work"]
+                 for n in "13"]  # fmt: skip
+        self.assertEqual(spent[0], spent[1])
 
     def test_budgets_that_are_none(self):
         self.results(SPEC)

@@ -51,6 +51,28 @@ std::string error_of(const SystemSpec& spec) {
   return "no error";
 }
 
+TEST(UpdateTable, BothBranchesCountWhereADisturbanceDecides) {
+  const auto with = [](const std::string& equation) {
+    return read_system(R"({"coordreq": 1, "name": "t",
+"states": [{"name": "m", "discrete": true, "lower": 0, "upper": 3, "step": 1}],
+"inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"disturbances": [{"name": "v", "lower": 2, "upper": 3}, {"name": "w", "lower": 0, "upper": 1}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {"m": ")" +
+                           equation + R"("}}, "safe": "true"})",
+                       "test");
+  };
+  // A fault that may happen; one that cannot, as v says; one that has happened.
+  const auto from = [](const Abstraction& all, std::int64_t m, std::int64_t u) { return all.raw(0, m, u); };
+  EXPECT_NE(error_of(with("m + w")), "no error");
+  const Abstraction b = built(with("if(m == 0, 1, if(m == 1, if(w > 1/2, 2 + u, 1), if(v > 1, 3, 0)))"));
+  EXPECT_EQ(from(b, 0, 0), (IndexRange{1, 1}));
+  EXPECT_EQ(from(b, 1, 0), (IndexRange{1, 2}));
+  EXPECT_EQ(from(b, 1, 1), (IndexRange{1, 3}));
+  EXPECT_EQ(from(b, 2, 0), (IndexRange{3, 3}));
+  EXPECT_TRUE(b.exact);
+  EXPECT_TRUE(built(with("if(w > 1 or v < 2, 0, m)")).exact);
+}
+
 TEST(UpdateTable, BothBranchesCountWhereTheCellLeavesTheConditionOpen) {
   const Abstraction a = built(mode_of({"if(x >= 0.2, 2, 0)"}));
   EXPECT_EQ(next(a, 1, 1, 0), (IndexRange{0, 0}));

@@ -119,7 +119,11 @@ class BlindFinder {
         if (!leads_into(x, layers_[k])) continue;
         // Into B_k for ever, or for one step more than k.
         const bool is_last = k + 1 == layers_.size();
-        delay = is_last ? told(static_cast<std::int64_t>(k)) : static_cast<std::int32_t>(k) + 1;
+        // Only k <= max_delay count, and one more step than these k would be too many.
+        const bool is_cut = spec_.coordination.max_delay == static_cast<std::int64_t>(k);
+        if (is_last && is_cut) delay = static_cast<std::int32_t>(k);
+        if (is_last && !is_cut) delay = told(static_cast<std::int64_t>(k));
+        if (!is_last) delay = static_cast<std::int32_t>(k) + 1;
       }
       result_.countdown.push_back(countdown);
       result_.delay.push_back(delay);

@@ -148,8 +148,8 @@ void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work
     work.enter_part("projections");
     const BlindSight partition(answers, p, work);
     work.enter_part("");
-    blind_partition.delays.layers_of =
-        find_blind_delays(partition.problem, blind_partition.layers.layers_of, work.team);
+    blind_partition.delays.layers_of = find_blind_delays(partition.problem, blind_partition.layers.layers_of,
+                                                         blind_partition.layers.fixed_point_index, work.team);
     const std::int64_t deepest =
         blind_partition.layers.truncated ? blind_partition.layers.top_delay() : blind_partition.table_steps();
     blind_partition.tables =

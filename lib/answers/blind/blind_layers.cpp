@@ -74,11 +74,14 @@ LevelMap find_blind_levels(const BlindProblem& problem, const WaveWatch& watch, 
   return common ? run(problem, start, watch, team, counts) : std::move(start);
 }
 
-LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, ThreadTeam& team) {
+LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, std::int64_t fixed_point,
+                           ThreadTeam& team) {
   const RowEngine& engine = engine_of(problem);
   const CellSet& invariant = problem.sources.invariant;
   return levels.visit([&]<class Level>(const LevelRows<Level>& layers) {
     constexpr Level kTop = LevelRows<Level>::kTop;
+    const bool is_cut = problem.max_delay && *problem.max_delay == fixed_point;
+    const Level most = is_cut ? static_cast<Level>(fixed_point + 1) : kTop;
     auto delays = engine.make_levels<Level>(engine.posts());
     IndependentActions<Level> actions(problem.sources.projections, invariant, team.size());
     std::deque<PostReader<Level>> readers;
@@ -95,7 +98,7 @@ LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, 
         std::ranges::fill(cells, Level{0});
         for_each_bit(over, [&](std::int64_t x) { cells[at(x)] = kTop; });
         for_each_bit(invariant.row(place.row), [&](std::int64_t x) {
-          cells[at(x)] = least[at(x)] == kTop ? kTop : static_cast<Level>(least[at(x)] + 1);
+          cells[at(x)] = least[at(x)] == kTop ? most : static_cast<Level>(least[at(x)] + 1);
         });
         delays.put(place.row, cells.data());
       }

@@ -26,9 +26,10 @@ struct BlindProblem {
                                          ThreadTeam& team, WaveCounts& counts);
 
 /// blind_delay + 1 of the cells of K, in own rows: one more than the number of sets B_0, B_1, ... that hold
-/// all posts under IND_C; kTop if all of these sets do, 0 outside K.
-/// @param levels of B
+/// all posts under IND_C; kTop if all of these sets do, 0 outside K. No more than `max_delay` steps count:
+/// where B is empty after so many, what leads to T alone has a delay of `max_delay`.
+/// @param levels of B @param fixed_point F_b; -1: not known
 [[nodiscard]] LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels,
-                                         ThreadTeam& team);
+                                         std::int64_t fixed_point, ThreadTeam& team);
 
 }  // namespace coordreq

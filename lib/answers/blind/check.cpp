@@ -79,7 +79,9 @@ struct BlindPartitionCheck {
         countdown("blind countdown " + claims.partition.name),
         first("first blind layer " + claims.partition.name),
         tables("silent tables " + claims.partition.name) {
-    if (claims.fixed_point_index < 0) most = context.spec->coordination.max_delay;
+    const std::optional<std::int64_t>& limit = context.spec->coordination.max_delay;
+    if (claims.fixed_point_index < 0) most = limit;
+    if (claims.fixed_point_index < 0 || claims.fixed_point_index == limit) longest = limit;
     if (claims.partition.classes.size() == 1) return;
     for (std::size_t c = 0; c < claims.partition.classes.size(); ++c)
       classes.emplace_back(context, claims.partition, c);
@@ -94,7 +96,8 @@ struct BlindPartitionCheck {
   PartitionClaims claims;  ///< with countdowns for delays
   const std::vector<std::int32_t>& delays;
   const std::vector<std::int32_t>& of_sight;
-  std::optional<std::int64_t> most;  ///< max_delay, if it has stopped the iteration
+  std::optional<std::int64_t> most;     ///< max_delay, if it has stopped the iteration
+  std::optional<std::int64_t> longest;  ///< or if the iteration ended with it: no delay is longer
   Tally delay, countdown, first, tables;
   std::deque<BlindClass> classes;  ///< empty if the partition has one class
   std::atomic<std::int64_t> looked_at{0};
@@ -150,7 +153,7 @@ class BlindChecker : public CellChecker {
       worst = std::min(worst, std::max(least, kOutsideInvariant));
     }
     const std::int32_t delay = any ? one_more(worst) : 0;
-    return partition.most ? std::min(delay, static_cast<std::int32_t>(*partition.most)) : delay;
+    return partition.longest ? std::min(delay, static_cast<std::int32_t>(*partition.longest)) : delay;
   }
 
   void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
