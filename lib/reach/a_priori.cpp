@@ -49,6 +49,7 @@ VectorField::VectorField(const FlowSystem& system, const FlowTape& tape)
       values_(tape),
       slots_(system.slot_count),
       walls_(tape.outputs.size()),
+      images_(tape.outputs.size()),
       steep_(std::any_of(tape.nodes.begin(), tape.nodes.end(),
                          [&](const FlowTape::Node& node) { return is_steep(tape, node); })) {}
 
@@ -62,18 +63,10 @@ void VectorField::set_state(std::span<const Interval> state) {
   for (std::size_t i = 0; i < state.size(); ++i) slots_[system_->state_slots[i]] = state[i];
 }
 
-void VectorField::run_values() {
-  if (pins_ == nullptr) {
-    values_.run_moving(slots_);
-  } else {
-    values_.run_moving(slots_, *pins_);
-  }
-}
-
 std::optional<FlowFailure> VectorField::evaluate(std::span<const Interval> state,
                                                  std::span<Interval> derivative) {
   set_state(state);
-  run_values();
+  values_.run(tape_->values, slots_, pins_);
   for (std::size_t i = 0; i < derivative.size(); ++i) {
     derivative[i] = values_[tape_->outputs[i]];
     if (!derivative[i].total) return FlowFailure{true, i};
@@ -125,7 +118,11 @@ bool VectorField::is_inside(std::size_t i, const Interval& a, const Interval& bo
 /// start + time * derivative, as far as it can be reached.
 Interval VectorField::image(std::size_t i, std::span<const Interval> start, const Interval& time,
                             const Interval& derivative) const {
-  Interval result = clipped(i, start[i] + time * derivative);
+  Interval moved;
+  rounded_upward([&] {
+    moved = (UpwardInterval(start[i]) + UpwardInterval(time) * UpwardInterval(derivative)).interval();
+  });
+  Interval result = clipped(i, moved);
   if (walls_[i].lower) result.lower = std::max(result.lower, start[i].lower);
   if (walls_[i].upper) result.upper = std::min(result.upper, start[i].upper);
   return result;
@@ -136,12 +133,13 @@ bool VectorField::contract(std::span<const Interval> start, const Interval& time
                            std::span<const Interval> derivative, double inflation, std::span<Interval> box) {
   bool inside = true;
   for (std::size_t i = 0; i < start.size(); ++i) {
-    if (is_inside(i, image(i, start, time, derivative[i]), box[i])) continue;
+    images_[i] = image(i, start, time, derivative[i]);
+    if (is_inside(i, images_[i], box[i])) continue;
     if (inside) worst_ = i;
     inside = false;
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
-    const Interval next = image(i, start, time, derivative[i]);
+    const Interval& next = images_[i];
     box[i] = inside ? next : hull(box[i], clipped(i, inflated(start[i], next, inflation)));
   }
   return inside;
@@ -179,7 +177,7 @@ bool VectorField::find_walls(std::span<const Interval> start, std::span<const In
 /// Whether f does not point out over `box`, a layer at a side of it.
 bool VectorField::is_wall(std::size_t i, bool upper, std::span<Interval> box) {
   set_state(box);
-  run_values();
+  values_.run(tape_->values_of[i], slots_, pins_);
   const Interval& f = values_[tape_->outputs[i]];
   return f.total && (upper ? f.upper <= 0.0 : f.lower >= 0.0);
 }

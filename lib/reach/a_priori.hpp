@@ -68,7 +68,6 @@ class VectorField {
     bool upper = false;
   };
 
-  void run_values();
   void guess(std::span<const Interval> start, const Interval& time, std::span<const Interval> derivative,
              std::span<Interval> box);
   bool find_walls(std::span<const Interval> start, std::span<const Interval> derivative,
@@ -88,6 +87,7 @@ class VectorField {
   TapeValues<Interval> values_;
   std::vector<Interval> slots_;
   std::vector<Walls> walls_;
+  std::vector<Interval> images_;
   bool steep_;             ///< solutions may not be unique
   std::size_t worst_ = 0;  ///< the equation that last grew out of its box
 };

@@ -72,7 +72,7 @@ void AffineKernel::expand() {
 
 /// Bounds what the polynomial leaves out within `duration`: row exp(A theta) A^K b / K! duration^K.
 double AffineKernel::remainder(double duration) {
-  const IntervalRow later = product(row_, transition_.range());
+  const IntervalRow later = product(row_, to_intervals(transition_.range()));
   const Interval last = product(later, derivative_.col(kTerms)).value();
   return (last * power(Interval(duration), static_cast<double>(kTerms))).magnitude();
 }
@@ -96,7 +96,7 @@ bool AffineKernel::add_piece(double duration, bool smallest, double& sum) {
   const double polynomial =
       one_sign ? (integral * end).magnitude() : multiply_up(kernel.magnitude(), duration);
   sum = add_up(sum, add_up(polynomial, multiply_up(rest, duration)));
-  row_ = product(row_, transition_.end()).eval();
+  row_ = product(row_, to_intervals(transition_.end())).eval();
   expand();
   return true;
 }

@@ -240,7 +240,7 @@ bool AffineCoefficients::exponentiate() {
   }
   TransitionMatrix transition(part_.states.size(), TransitionMatrix::kManyTerms);
   if (!transition.enclose(matrix_, period, std::vector<bool>(part_.states.size(), false))) return false;
-  phi_ = transition.end();
+  phi_ = to_intervals(transition.end());
   for (; halvings > 0; --halvings) phi_ = product(phi_, phi_).eval();
   return is_finite(phi_);
 }

@@ -28,11 +28,11 @@ class FlowSensitivity {
   void lose();
 
   [[nodiscard]] bool is_bounded() const { return bounded_; }
-  [[nodiscard]] const Interval& initial(std::size_t i, std::size_t j) const {
-    return initial_(index(i), index(j));
+  [[nodiscard]] Interval initial(std::size_t i, std::size_t j) const {
+    return initial_(index(i), index(j)).interval();
   }
-  [[nodiscard]] const Interval& kernel(std::size_t i, std::size_t l) const {
-    return kernel_(index(i), index(l));
+  [[nodiscard]] Interval kernel(std::size_t i, std::size_t l) const {
+    return kernel_(index(i), index(l)).interval();
   }
   [[nodiscard]] double weight(std::size_t i, std::size_t l) const { return weight_(index(i), index(l)); }
   /// Puts a better bound there. @pre it is not larger. @pre unchecked: it is one
@@ -45,17 +45,28 @@ class FlowSensitivity {
  private:
   static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-  void intersect_with_turning(const IntervalMatrix& transition);
+  void add_disturbances(const TransitionMatrix& transition, const Jacobian& jacobian);
+  void carry_on(const TransitionMatrix& transition);
+  void append_to_turning(const UpwardMatrix& transition);
 
   bool turns_ = fast_paths().turning_products;
   bool bounded_ = true;
   bool first_ = true;
-  IntervalMatrix initial_;
+  UpwardMatrix initial_;
   TurningProduct turning_;  ///< the same, kept from the first long product on
-  std::vector<IntervalMatrix> first_steps_;
-  IntervalMatrix kernel_;
+  std::vector<UpwardMatrix> first_steps_;
+  std::size_t step_count_ = 0;  ///< of those that count as first
+  UpwardMatrix kernel_;
   RealMatrix weight_;
   RealVector jump_;
+
+  // Scratch memory.
+  UpwardMatrix next_initial_;
+  UpwardMatrix acting_;  ///< of the disturbances
+  UpwardMatrix now_;
+  UpwardMatrix before_;
+  RealMatrix next_weight_;
+  RealVector next_jump_;
 };
 
 }  // namespace coordreq

@@ -54,11 +54,13 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       box_(n_),
       derivative_(n_),
       next_(n_),
-      deviation_(n_),
+      slots_(system_.slot_count),
       damped_(n_),
       none_held_(n_),
       tolerance_(n_),
       allowed_excess_(n_) {
+  alone_ = Deviation(n_);
+  for (Along& along : along_) along.start = alone_;
   result_.end.resize(n_);
   result_.tube.resize(n_);
   result_.drift.resize(n_);
@@ -167,6 +169,7 @@ FlowStep& ValidatedFlow::Solver::next_step() {
 
 /// @returns why the step is too long; nothing if it is done
 std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& duration, bool divisible) {
+  along_count_ = 0;
   if (const auto failure = field_.enclose_solutions(now_, duration, box_, derivative_)) return failure;
   if (field_.is_on_seam(box_)) return try_step_on_seam(duration);
   FlowStep& step = next_step();
@@ -175,7 +178,9 @@ std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& durat
   step.smooth = decide(tape_, field_.values(), step.choices) && all_free_;
   set_tolerance();
   if (step.smooth) {
-    taylor_.find_remainder(field_, duration, step.choices, none_held_, tolerance_, step.remainder);
+    taylor_.begin(field_, step.choices, none_held_);
+    take_solutions_along();
+    taylor_.find_remainder(duration, tolerance_, step.remainder);
     step.smooth = step.remainder.order > 0;
     // A singularity is better dealt with along single solutions, which are farther away from it.
     if (!step.smooth && divisible && step.remainder.bounded) return FlowFailure{};

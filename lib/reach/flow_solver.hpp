@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct FlowStep {
   bool smooth = false;  ///< the remainder holds for every solution from the initial box
   TaylorRemainder remainder;
   Choices choices;
-  IntervalMatrix transition;  ///< of the difference of two solutions
+  UpwardMatrix transition;  ///< of the difference of two solutions
 };
 
 /// A solution that is followed from a corner of the boxes of initial states and of disturbances, or from the
@@ -27,6 +28,20 @@ struct FollowedSolution {
   std::vector<End> ends;     ///< states, then disturbances
   NominalFlow::State state;  ///< after `steps_done` steps
   std::size_t steps_done = 0;
+};
+
+/// An enclosure of a followed solution: {middle} + by.
+struct Deviation {
+  Deviation() = default;
+  explicit Deviation(std::size_t states) : middle(states), by(states) {}
+
+  std::vector<Interval> middle;  ///< points
+  std::vector<UpwardInterval> by;
+  bool wide = false;  ///< not all of `by` is 0
+
+  void split(std::span<const Interval> state);
+  /// Adds to `state`, where the middle has got to, what the transition matrix makes of `by`.
+  void carry_on(const UpwardMatrix& transition, std::vector<Interval>& state) const;
 };
 
 /// The work behind ValidatedFlow; see there.
@@ -78,7 +93,9 @@ class ValidatedFlow::Solver {
   void restore_disturbances();
   bool advance(const FlowStep& step, NominalFlow::State& state);
   void advance_smoothly(const FlowStep& step, std::vector<Interval>& state);
-  bool follow(FollowedSolution& solution);
+  void take_solutions_along();
+  void advance_along(std::size_t along, FollowedSolution& solution);
+  bool follow(std::size_t s);
   void choose_ends(std::size_t i, bool upper, std::vector<End>& ends) const;
   std::size_t solution_for(const std::vector<End>& ends);
   void follow_extremes(bool last);
@@ -116,7 +133,15 @@ class ValidatedFlow::Solver {
   std::vector<Interval> box_;          ///< during the step
   std::vector<Interval> derivative_;
   std::vector<Interval> next_;
-  IntervalVector deviation_;
+  /// Solutions whose step is worked out along with the remainder: those that are likely to be asked for.
+  struct Along {
+    std::size_t solution = 0;
+    Deviation start;
+  };
+  std::array<Along, TaylorStep::kMostAlong> along_;
+  std::size_t along_count_ = 0;
+  Deviation alone_;
+  std::vector<Interval> slots_;
   std::vector<bool> damped_;
   std::vector<bool> none_held_;
   std::vector<double> tolerance_;

@@ -1,6 +1,7 @@
 #include "reach/flow_tape.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -191,11 +192,10 @@ std::vector<Index> series_operands(const Node& node) {
   }
 }
 
-/// Which nodes are reached from the outputs.
+/// Which nodes are reached from those in `open`.
 template <class Operands>
-std::vector<bool> reached(const FlowTape& tape, Operands operands) {
+std::vector<bool> reached(const FlowTape& tape, std::vector<Index> open, Operands operands) {
   std::vector<bool> seen(tape.nodes.size());
-  std::vector<Index> open = tape.outputs;
   while (!open.empty()) {
     const Index i = open.back();
     open.pop_back();
@@ -214,8 +214,8 @@ FlowTape::FlowTape(std::span<const Program* const> equations, std::span<const st
   TapeWriter writer(*this, states, disturbances);
   for (const Program* equation : equations) outputs.push_back(writer.write(*equation));
   for (const Index i : outputs) affine = affine && writer.is_affine(i);
-  const std::vector<bool> for_value = reached(*this, value_operands);
-  const std::vector<bool> for_series = reached(*this, series_operands);
+  const std::vector<bool> for_value = reached(*this, outputs, value_operands);
+  const std::vector<bool> for_series = reached(*this, outputs, series_operands);
   for (Index i = 0; i < nodes.size(); ++i) {
     if (writer.is_fixed(i)) {
       fixed_values.push_back(i);
@@ -223,6 +223,11 @@ FlowTape::FlowTape(std::span<const Program* const> equations, std::span<const st
     }
     if (for_value[i]) values.push_back(i);
     if (for_series[i]) series.push_back(i);
+  }
+  for (const Index output : outputs) {
+    const std::vector<bool> needed = reached(*this, {output}, value_operands);
+    std::vector<Index>& own = values_of.emplace_back();
+    std::copy_if(values.begin(), values.end(), std::back_inserter(own), [&](Index i) { return needed[i]; });
   }
 }
 

@@ -38,6 +38,7 @@ struct FlowTape {
   std::vector<std::uint32_t> outputs;       ///< node of each equation
   std::vector<std::uint32_t> fixed_values;  ///< nodes without moving variables, ascending
   std::vector<std::uint32_t> values;        ///< moving nodes that the equations' values need, ascending
+  std::vector<std::vector<std::uint32_t>> values_of;  ///< those that each of them needs
   std::vector<std::uint32_t> series;        ///< moving nodes that Taylor coefficients need, ascending
   bool affine = true;                       ///< each equation has degree at most 1 in the moving variables
 

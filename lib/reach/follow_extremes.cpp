@@ -91,21 +91,74 @@ bool ValidatedFlow::Solver::advance(const FlowStep& step, NominalFlow::State& st
 /// A Taylor step from the middle of the enclosure so far, which grows as differences of solutions do:
 /// evaluating the polynomial over all of it would let rounding errors grow where solutions converge.
 void ValidatedFlow::Solver::advance_smoothly(const FlowStep& step, std::vector<Interval>& state) {
-  bool wide = false;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const Interval middle = Interval(midpoint(state[i]));
-    Interval& deviation = deviation_(static_cast<Eigen::Index>(i));
-    deviation = state[i] - middle;
-    state[i] = middle;
-    wide = wide || !deviation.is_zero();
-  }
+  alone_.split(state);
+  state = alone_.middle;
   taylor_.advance(field_, step.duration, step.choices, none_held_, step.remainder, state);
-  if (!wide) return;
-  Eigen::Map<IntervalVector>(state.data(), deviation_.size()) += product(step.transition, deviation_);
+  alone_.carry_on(step.transition, state);
 }
 
-/// Brings the solution up to the present step. @returns whether it could be enclosed
-bool ValidatedFlow::Solver::follow(FollowedSolution& solution) {
+void Deviation::split(std::span<const Interval> state) {
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    by[i] = UpwardInterval(state[i]);
+    middle[i] = Interval(midpoint(state[i]));
+  }
+  rounded_upward([this] {
+    wide = false;
+    for (std::size_t i = 0; i < by.size(); ++i) {
+      by[i] += UpwardInterval(-middle[i].lower);
+      wide = wide || !by[i].is_zero();
+    }
+  });
+}
+
+void Deviation::carry_on(const UpwardMatrix& transition, std::vector<Interval>& state) const {
+  if (!wide) return;
+  rounded_upward([&] {
+    for (std::size_t i = 0; i < by.size(); ++i) {
+      UpwardInterval sum;
+      for (std::size_t j = 0; j < by.size(); ++j)
+        sum += transition(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * by[j];
+      state[i] = (UpwardInterval(state[i]) + sum).interval(state[i].total);
+    }
+  });
+}
+
+/// Those that extremes came from in the last step: mostly they are asked for again.
+void ValidatedFlow::Solver::take_solutions_along() {
+  for (std::size_t s = 0; s < solution_count_ && along_count_ < along_.size(); ++s) {
+    const FollowedSolution& solution = solutions_[s];
+    const bool asked_for = std::find(solution_of_.begin(), solution_of_.end(), s) != solution_of_.end();
+    if (!asked_for || solution.steps_done != step_count_) continue;
+    Along& along = along_[along_count_++];
+    along.solution = s;
+    along.start.split(solution.state.value);
+    std::copy(field_.slots().begin(), field_.slots().end(), slots_.begin());
+    for (std::size_t i = 0; i < n_; ++i) slots_[system_.state_slots[i]] = along.start.middle[i];
+    for (std::size_t l = 0; l < m_; ++l)
+      slots_[system_.disturbance_slots[l]] = Interval(value_at(disturbance_[l], solution.ends[n_ + l]));
+    taylor_.take_along(slots_);
+  }
+}
+
+/// The last step of a solution that was taken along.
+void ValidatedFlow::Solver::advance_along(std::size_t along, FollowedSolution& solution) {
+  const FlowStep& step = steps_[step_count_ - 1];
+  taylor_.advance_along(along, step.remainder, solution.state.value);
+  along_[along].start.carry_on(step.transition, solution.state.value);
+  std::fill(solution.state.at_limit.begin(), solution.state.at_limit.end(), false);
+  ++solution.steps_done;
+}
+
+/// Brings a solution up to the present step. @returns whether it could be enclosed
+bool ValidatedFlow::Solver::follow(std::size_t s) {
+  FollowedSolution& solution = solutions_[s];
+  if (solution.steps_done + 1 == step_count_ && steps_[solution.steps_done].smooth) {
+    for (std::size_t a = 0; a < along_count_; ++a) {
+      if (along_[a].solution != s) continue;
+      advance_along(a, solution);
+      return true;
+    }
+  }
   set_disturbances(solution.ends);
   bool found = true;
   while (solution.steps_done < step_count_ && found) {
@@ -194,7 +247,7 @@ void ValidatedFlow::Solver::follow_extremes(bool last) {
   }
   for (std::size_t s = 0; s < solution_count_; ++s) {
     if (std::find(solution_of_.begin(), solution_of_.end(), s) == solution_of_.end()) continue;
-    if (!follow(solutions_[s])) continue;
+    if (!follow(s)) continue;
     if (last) note_attained(solutions_[s]);
     for (std::size_t e = 0; e < 2 * n_; ++e) {
       if (solution_of_[e] == s) use_extreme(e / 2, e % 2 == 1, solutions_[s], wanted_[e]);

@@ -90,7 +90,8 @@ bool NominalFlow::try_step(const Interval& duration, bool smallest, std::span<co
     for (std::size_t i = 0; i < box_.size(); ++i) {
       tolerance_[i] = std::max(tolerance[i], kNominalTolerance * box_[i].magnitude());
     }
-    taylor_.find_remainder(*field_, duration, choices_, held_, tolerance_, remainder_);
+    taylor_.begin(*field_, choices_, held_);
+    taylor_.find_remainder(duration, tolerance_, remainder_);
     if (remainder_.order > 0) {
       taylor_.advance(*field_, duration, choices_, held_, remainder_, state.value);
       release(state);

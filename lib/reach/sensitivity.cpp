@@ -6,14 +6,10 @@
 namespace coordreq {
 namespace {
 
-using outward::add_up;
 using outward::divide_up;
 using outward::kInfinity;
-using outward::multiply_up;
 
-constexpr Interval kNone{0.0, 0.0};
 constexpr Interval kOne{1.0, 1.0};
-constexpr Interval kUnit{0.0, 1.0};
 
 constexpr std::size_t kMostPowers = 80;
 constexpr double kMoreDiagonal = 0.5;
@@ -32,10 +28,6 @@ unsigned times(unsigned a, unsigned b) {
   if (a == 0U || b == 0U) return 0U;
   if (a == kBoth || b == kBoth) return kBoth;
   return a == b ? kPositive : kNegative;
-}
-
-Interval with_zero(const Interval& a) {
-  return {std::min(a.lower, 0.0), std::max(a.upper, 0.0)};
 }
 
 double number(std::size_t value) {
@@ -66,7 +58,10 @@ bool TransitionMatrix::enclose(const IntervalMatrix& jacobian, const Interval& d
   std::size_t k = 1;
   for (; k <= interval_terms_ && !is_negligible(); ++k) {
     next_magnitude(k, duration.upper);
-    add_term(k, duration, damped);
+    rounded_upward([&] {
+      integrate_magnitude(k);
+      add_term(k, UpwardInterval(duration), damped);
+    });
   }
   if (!add_tail(k, duration.upper)) return false;
   apply_signs(end_);
@@ -77,27 +72,32 @@ bool TransitionMatrix::enclose(const IntervalMatrix& jacobian, const Interval& d
 
 bool TransitionMatrix::shift(const IntervalMatrix& jacobian, double duration,
                              const std::vector<bool>& damped) {
-  shifted_ = jacobian;
-  double alpha = -kInfinity;
+  alpha_ = -kInfinity;
+  bool finite = true;
   for (Eigen::Index i = 0; i < n_; ++i) {
-    Interval& diagonal = shifted_(i, i);
+    for (Eigen::Index j = 0; j < n_; ++j) shifted_(i, j) = UpwardInterval(jacobian(i, j));
+    UpwardInterval& diagonal = shifted_(i, i);
     // Damping makes up for a diagonal entry that is taken too large, and a moderate one keeps alpha small.
     if (damped[static_cast<std::size_t>(i)]) {
-      diagonal = Interval(std::max(diagonal.upper, -kStrongestDecay / duration));
+      diagonal = UpwardInterval(std::max(diagonal.upper(), -kStrongestDecay / duration));
     }
-    alpha = std::max(alpha, -diagonal.lower);
+    alpha_ = std::max(alpha_, -diagonal.lower());
+    for (Eigen::Index j = 0; j < n_; ++j) finite = finite && shifted_(i, j).is_finite();
   }
-  if (!is_finite(shifted_)) return false;
-  alpha_ = Interval(alpha);
-  for (Interval& diagonal : shifted_.diagonal()) diagonal = max(diagonal + alpha_, kNone);
-  magnitude_ = magnitudes(shifted_);
+  if (!finite) return false;
+  rounded_upward([this] {
+    for (UpwardInterval& diagonal : shifted_.diagonal())
+      diagonal = positive_part(diagonal + UpwardInterval(alpha_));
+  });
+  for (Eigen::Index e = 0; e < shifted_.size(); ++e) magnitude_.data()[e] = shifted_.data()[e].magnitude();
   return true;
 }
 
 /// Signs of the products along all walks from i to j (Kleene's algorithm). Damping changes no sign.
 void TransitionMatrix::find_signs() {
-  signs_ = shifted_.unaryExpr(
-      [](const Interval& a) { return (a.upper > 0.0 ? kPositive : 0U) | (a.lower < 0.0 ? kNegative : 0U); });
+  signs_ = shifted_.unaryExpr([](const UpwardInterval& a) {
+    return (a.upper() > 0.0 ? kPositive : 0U) | (a.lower() < 0.0 ? kNegative : 0U);
+  });
   for (Eigen::Index k = 0; k < n_; ++k) {
     const unsigned loops = (signs_(k, k) & kNegative) != 0U ? kBoth : kPositive;
     for (Eigen::Index i = 0; i < n_; ++i) {
@@ -108,18 +108,18 @@ void TransitionMatrix::find_signs() {
   for (unsigned& sign : signs_.diagonal()) sign |= kPositive;
 }
 
-void TransitionMatrix::apply_signs(IntervalMatrix& matrix) const {
+void TransitionMatrix::apply_signs(UpwardMatrix& matrix) const {
   for (Eigen::Index e = 0; e < matrix.size(); ++e) {
-    Interval& entry = matrix.data()[e];
-    if ((signs_.data()[e] & kNegative) == 0U) entry = max(entry, kNone);
-    if ((signs_.data()[e] & kPositive) == 0U) entry = min(entry, kNone);
+    UpwardInterval& entry = matrix.data()[e];
+    if ((signs_.data()[e] & kNegative) == 0U) entry = positive_part(entry);
+    if ((signs_.data()[e] & kPositive) == 0U) entry = negative_part(entry);
   }
 }
 
 void TransitionMatrix::start(const std::vector<bool>& damped) {
-  term_.setIdentity();
+  term_.setZero();
   for (Eigen::Index i = 0; i < n_; ++i) {
-    if (damped[static_cast<std::size_t>(i)]) term_(i, i) = kUnit;
+    term_(i, i) = UpwardInterval(damped[static_cast<std::size_t>(i)] ? 0.0 : 1.0, 1.0);
   }
   size_.setIdentity();
   end_ = term_;
@@ -128,17 +128,23 @@ void TransitionMatrix::start(const std::vector<bool>& damped) {
 }
 
 /// term := term (A + alpha I) D h / k.
-void TransitionMatrix::add_term(std::size_t k, const Interval& duration, const std::vector<bool>& damped) {
-  scaled_ = term_ * (k == 1 ? duration : duration / Interval(number(k)));
-  term_.noalias() = product(scaled_, shifted_);
-  for (Eigen::Index j = 0; j < n_; ++j) {
-    if (damped[static_cast<std::size_t>(j)]) term_.col(j) = term_.col(j).unaryExpr(&with_zero);
+void TransitionMatrix::add_term(std::size_t k, const UpwardInterval& duration,
+                                const std::vector<bool>& damped) {
+  const UpwardInterval factor = k == 1 ? duration : duration / UpwardInterval(number(k));
+  for (Eigen::Index e = 0; e < term_.size(); ++e) scaled_.data()[e] = term_.data()[e] * factor;
+  multiply(scaled_, shifted_, term_);
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    for (Eigen::Index j = 0; j < n_; ++j) {
+      UpwardInterval& entry = term_(i, j);
+      const UpwardInterval on_the_way = hull_with_zero(entry);
+      if (damped[static_cast<std::size_t>(j)]) entry = on_the_way;
+      end_(i, j) += entry;
+      range_(i, j) += on_the_way;
+    }
   }
-  end_ += term_;
-  range_ += term_.unaryExpr(&with_zero);
 }
 
-/// size := size |A + alpha I| h / k, and its part of the integral.
+/// size := size |A + alpha I| h / k.
 /// @returns whether no entry is more than half of what it was
 bool TransitionMatrix::next_magnitude(std::size_t k, double duration) {
   // Sums of non-negative numbers: one factor covers all roundings, one summand what underflows.
@@ -146,18 +152,24 @@ bool TransitionMatrix::next_magnitude(std::size_t k, double duration) {
   const double factor = divide_up(duration, number(k));
   for (Eigen::Index i = 0; i < n_; ++i) {
     for (Eigen::Index j = 0; j < n_; ++j) {
-      const auto left = size_.row(i).transpose().array();
-      const auto right = magnitude_.col(j).array();
-      const bool any = (left > 0.0 && right > 0.0).any();
-      next_size_(i, j) = any ? (left * right).sum() * factor * slack + kTiny : 0.0;
+      bool any = false;
+      double sum = 0.0;
+      for (Eigen::Index k = 0; k < n_; ++k) {
+        any = any || (size_(i, k) > 0.0 && magnitude_(k, j) > 0.0);
+        sum += size_(i, k) * magnitude_(k, j);
+      }
+      next_size_(i, j) = any ? sum * factor * slack + kTiny : 0.0;
     }
   }
   const bool halved = (next_size_.array() <= 0.5 * size_.array()).all();
   size_.swap(next_size_);
-  integral_ = integral_.binaryExpr(size_, [&](double sum, double size) {
-    return size > 0.0 ? add_up(sum, divide_up(size, number(k + 1))) : sum;
-  });
   return halved;
+}
+
+/// Adds the part of a term to the integral. Rounded upward.
+void TransitionMatrix::integrate_magnitude(std::size_t k) {
+  const double order = number(k + 1);
+  for (Eigen::Index e = 0; e < size_.size(); ++e) integral_.data()[e] += size_.data()[e] / order;
 }
 
 /// Whether the last term is below the rounding errors of the sum.
@@ -170,36 +182,50 @@ bool TransitionMatrix::is_negligible() const {
 /// going in turns, as in a rotation, which that test could not stand.
 bool TransitionMatrix::add_tail(std::size_t k, double duration) {
   const double more = divide_up(kMoreDiagonal, duration);
-  for (double& diagonal : magnitude_.diagonal()) diagonal = add_up(diagonal, more);
+  for (double& diagonal : magnitude_.diagonal()) diagonal = outward::add_up(diagonal, more);
   for (bool halved = false; !halved; ++k) {
     if (k > kMostPowers) return false;
     halved = next_magnitude(k, duration);
-    const auto tail = size_.unaryExpr([halved](double size) {
-      const double rest = halved ? multiply_up(2.0, size) : size;
-      return Interval(-rest, rest);
+    rounded_upward([&] {
+      integrate_magnitude(k);
+      widen_by_tail(halved);
     });
-    end_ += tail;
-    range_ += tail;
     if (!(size_.array() <= outward::kLargest).all()) return false;
-    if (halved) integral_ = integral_.binaryExpr(size_, &add_up);
   }
   return true;
+}
+
+/// Adds a term of which only the size is known, and all that follow it if they are at most half of it.
+/// Rounded upward.
+void TransitionMatrix::widen_by_tail(bool halved) {
+  for (Eigen::Index e = 0; e < size_.size(); ++e) {
+    const double size = size_.data()[e];
+    const double rest = halved ? 2.0 * size : size;
+    const UpwardInterval tail(-rest, rest);
+    end_.data()[e] += tail;
+    range_.data()[e] += tail;
+    if (halved) integral_.data()[e] += size;
+  }
 }
 
 /// Multiplies by exp(-alpha s). Its integral against s^k is at most the product of both averages and h where
 /// one falls and the other rises (Chebyshev).
 void TransitionMatrix::apply_shift(const Interval& duration) {
-  const Interval decay = exp(-(alpha_ * duration));
-  const Interval on_the_way = hull(kOne, decay);
-  double average = on_the_way.upper;
-  if (alpha_.lower > 0.0) {
-    const Interval exact_average = (kOne - decay) / (alpha_ * duration);
-    average = std::min(average, exact_average.upper);
-  }
-  const double weight = multiply_up(average, duration.upper);
-  end_ *= decay;
-  range_ *= on_the_way;
-  integral_ = integral_.unaryExpr([&](double sum) { return multiply_up(sum, weight); });
+  const Interval exponent = Interval(alpha_) * duration;
+  const Interval decay = exp(-exponent);
+  double average = std::max(decay.upper, 1.0);
+  if (alpha_ > 0.0) average = std::min(average, ((kOne - decay) / exponent).upper);
+  rounded_upward([&] {
+    const UpwardInterval at_end(decay);
+    const UpwardInterval on_the_way = hull(UpwardInterval(1.0), at_end);
+    const double weight = average * duration.upper;
+    for (Eigen::Index e = 0; e < size_.size(); ++e) {
+      end_.data()[e] = end_.data()[e] * at_end;
+      range_.data()[e] = range_.data()[e] * on_the_way;
+      // No product of 0 and infinity.
+      if (integral_.data()[e] > 0.0) integral_.data()[e] *= weight;
+    }
+  });
 }
 
 }  // namespace coordreq

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "numeric/matrix.hpp"
+#include "numeric/upward_matrix.hpp"
 
 namespace coordreq {
 
@@ -31,35 +31,37 @@ class TransitionMatrix {
   bool enclose(const IntervalMatrix& jacobian, const Interval& duration, const std::vector<bool>& damped);
 
   /// Phi(h, 0).
-  [[nodiscard]] const IntervalMatrix& end() const { return end_; }
+  [[nodiscard]] const UpwardMatrix& end() const { return end_; }
   /// Phi(h, s) for all 0 <= s <= h.
-  [[nodiscard]] const IntervalMatrix& range() const { return range_; }
+  [[nodiscard]] const UpwardMatrix& range() const { return range_; }
   /// At least the integral of |Phi(h, s)| over 0 <= s <= h, entry by entry.
   [[nodiscard]] const RealMatrix& integral() const { return integral_; }
 
  private:
   bool shift(const IntervalMatrix& jacobian, double duration, const std::vector<bool>& damped);
   void find_signs();
-  void apply_signs(IntervalMatrix& matrix) const;
+  void apply_signs(UpwardMatrix& matrix) const;
   void start(const std::vector<bool>& damped);
-  void add_term(std::size_t k, const Interval& duration, const std::vector<bool>& damped);
+  void add_term(std::size_t k, const UpwardInterval& duration, const std::vector<bool>& damped);
   [[nodiscard]] bool is_negligible() const;
   bool add_tail(std::size_t k, double duration);
+  void widen_by_tail(bool halved);
   bool next_magnitude(std::size_t k, double duration);
+  void integrate_magnitude(std::size_t k);
   void apply_shift(const Interval& duration);
 
   Eigen::Index n_;
   std::size_t interval_terms_;
-  Interval alpha_;
-  IntervalMatrix shifted_;  ///< A + alpha I
-  IntervalMatrix term_;     ///< the k-th power of it times h^k / k!
-  IntervalMatrix scaled_;
+  double alpha_ = 0.0;
+  UpwardMatrix shifted_;  ///< A + alpha I
+  UpwardMatrix term_;     ///< the k-th power of it times h^k / k!
+  UpwardMatrix scaled_;
   RealMatrix magnitude_;  ///< bounds of |A + alpha I|, and of the k-th term
   RealMatrix size_;
   RealMatrix next_size_;
   MatrixOf<unsigned> signs_;  ///< which signs an entry of a power of A + alpha I can have
-  IntervalMatrix end_;
-  IntervalMatrix range_;
+  UpwardMatrix end_;
+  UpwardMatrix range_;
   RealMatrix integral_;
 };
 

@@ -8,6 +8,7 @@
 #include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "reach/flow_tape.hpp"
+#include "reach/upward_apply.hpp"
 
 namespace coordreq {
 
@@ -38,24 +39,25 @@ class TapeValues {
   }
 
   /// Evaluates what does not move; first after a change of the other slots.
-  void run_fixed(std::span<const T> slots) {
-    for (const std::uint32_t i : tape_->fixed_values) run_node(i, slots);
-  }
+  void run_fixed(std::span<const T> slots) { run(tape_->fixed_values, slots, nullptr); }
 
   /// Evaluates what moves.
-  void run_moving(std::span<const T> slots) {
-    for (const std::uint32_t i : tape_->values) run_node(i, slots);
-  }
+  void run_moving(std::span<const T> slots) { run(tape_->values, slots, nullptr); }
 
-  /// Evaluates what moves, except that nodes pinned in `pins` have the value given there.
-  void run_moving(std::span<const Interval> slots, const Choices& pins) requires std::same_as<T, Interval> {
-    for (const std::uint32_t i : tape_->values) {
-      if (tape_->nodes[i].is_choice() && pins[i].kind == Choice::Kind::pinned) {
-        numbers_[i] = pins[i].value;
-      } else {
+  /// Evaluates some of the tape's nodes, in its order, with what they need. @param pins nodes pinned there have
+  /// the value given there; null: none
+  void run(std::span<const std::uint32_t> nodes, std::span<const T> slots, const Choices* pins) {
+    rounded_upward([&] {
+      for (const std::uint32_t i : nodes) {
+        if constexpr (std::same_as<T, Interval>) {
+          if (pins != nullptr && tape_->nodes[i].is_choice() && (*pins)[i].kind == Choice::Kind::pinned) {
+            numbers_[i] = (*pins)[i].value;
+            continue;
+          }
+        }
         run_node(i, slots);
       }
-    }
+    });
   }
 
   [[nodiscard]] const T& operator[](std::uint32_t node) const { return numbers_[node]; }
@@ -74,9 +76,9 @@ class TapeValues {
       numbers_[i] = select(truths_[node.a].value, numbers_[node.b], numbers_[node.c]);
       if (!truths_[node.a].total) numbers_[i].total = false;
     } else if (is_unary_function(node.op)) {
-      numbers_[i] = apply(node.op, numbers_[node.a]);
+      numbers_[i] = apply_upward(node.op, numbers_[node.a]);
     } else {
-      numbers_[i] = apply(node.op, numbers_[node.a], numbers_[node.b]);
+      numbers_[i] = apply_upward(node.op, numbers_[node.a], numbers_[node.b]);
     }
   }
 

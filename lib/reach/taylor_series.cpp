@@ -9,51 +9,174 @@ namespace {
 
 using Rule = FlowTape::Rule;
 
-constexpr Ball kZero{};
-
-Ball as_ball(double value) {
-  return {value, 0.0};
+SeriesStep step_of(Rule rule) {
+  switch (rule) {
+    case Rule::variable:
+      return SeriesStep::input;
+    case Rule::sum:
+      return SeriesStep::sum;
+    case Rule::difference:
+      return SeriesStep::difference;
+    case Rule::negation:
+      return SeriesStep::negation;
+    case Rule::product:
+      return SeriesStep::product;
+    case Rule::quotient:
+      return SeriesStep::quotient;
+    case Rule::chain:
+      return SeriesStep::chain;
+    case Rule::inverse_chain:
+      return SeriesStep::inverse_chain;
+    case Rule::root:
+      return SeriesStep::root;
+    case Rule::power:
+      return SeriesStep::power;
+    case Rule::angle:
+      return SeriesStep::angle;
+    case Rule::pick:
+    case Rule::fixed:
+      break;
+  }
+  return SeriesStep::zero;
 }
-Ball as_ball(std::size_t value) {
-  return as_ball(static_cast<double>(value));
+
+void put(const Ball& value, std::size_t lane, BallLanes& balls) {
+  balls.middle[lane] = value.middle;
+  balls.radius[lane] = value.radius;
+}
+
+BallLanes in_all_lanes(const Ball& value) {
+  BallLanes balls;
+  for (std::size_t lane = 0; lane < BallLanes::kLanes; ++lane) put(value, lane, balls);
+  return balls;
 }
 
 }  // namespace
 
 TaylorSeries::TaylorSeries(const FlowTape& tape, std::size_t largest_order)
-    : tape_(&tape),
-      stride_(largest_order + 1),
-      values_(tape.nodes.size()),
-      nodes_(tape.nodes.size() * stride_),
-      states_(tape.outputs.size() * stride_),
-      last_nonzero_(tape.nodes.size()) {}
-
-void TaylorSeries::start(std::span<const Interval> slots, const TapeValues<Interval>& fixed,
-                         const Choices& choices, const std::vector<bool>& held) {
-  choices_ = &choices;
-  held_ = &held;
-  order_ = 0;
-  for (const std::uint32_t i : tape_->fixed_values) {
-    values_[i] = fixed[i];
-    at(i, 0) = to_ball(values_[i]);
+    : tape_(&tape), kernels_(&taylor_kernels()), has_value_(tape.nodes.size()) {
+  for (const std::uint32_t i : tape.values) has_value_[i] = true;
+  for (const std::uint32_t i : tape.series) {
+    if (tape.nodes[i].is_choice()) choice_nodes_.push_back(nodes_.size());
+    nodes_.push_back(node_of(i));
   }
-  for (std::size_t i = 0; i < tape_->state_slots.size(); ++i) {
-    states_[i * stride_] = to_ball(slots[tape_->state_slots[i]]);
-  }
-  for (const std::uint32_t i : tape_->series) {
-    values_[i] = value_of(i, slots);
-    at(i, 0) = to_ball(values_[i]);
-    last_nonzero_[i] = 0;
-  }
+  for (const std::uint32_t i : tape.outputs) outputs_.push_back({.node = i, .moves = moves(i)});
+  mark_weighted();
+  memory_.stride = largest_order + 1;
+  memory_.lanes = 0;
 }
 
+SeriesNode TaylorSeries::node_of(std::uint32_t i) const {
+  const FlowTape::Node& node = tape_->nodes[i];
+  SeriesNode result{.step = step_of(node.rule), .self = i, .p = node.p, .q = node.q, .square = node.square};
+  if (node.rule == Rule::variable) {
+    if (node.p == FlowTape::kNone) result.step = SeriesStep::zero;
+    return result;
+  }
+  result.p_moves = moves(node.p);
+  result.q_moves = moves(node.q);
+  result.square_moves = moves(node.square);
+  return result;
+}
+
+void TaylorSeries::mark_weighted() {
+  std::vector<bool> weighted(tape_->nodes.size());
+  for (const SeriesNode& node : nodes_) {
+    if (node.step == SeriesStep::chain) weighted[node.p] = true;
+    if (node.step == SeriesStep::inverse_chain) weighted[node.self] = true;
+  }
+  for (SeriesNode& node : nodes_) node.weighted = weighted[node.self];
+}
+
+/// Not before it is needed: not all series are.
+void TaylorSeries::allocate() {
+  if (!coefficients_.empty()) return;
+  const std::size_t size = tape_->nodes.size() * memory_.stride;
+  values_.resize(tape_->nodes.size());
+  coefficients_.resize(size);
+  if (std::any_of(nodes_.begin(), nodes_.end(), [](const SeriesNode& node) { return node.weighted; }))
+    weighted_.resize(size);
+  states_.resize(outputs_.size() * memory_.stride);
+  last_nonzero_.resize(kLanes / 2 * tape_->nodes.size());
+  memory_.nodes = nodes_.data();
+  memory_.node_count = nodes_.size();
+  memory_.outputs = outputs_.data();
+  memory_.state_count = outputs_.size();
+  memory_.coefficients = coefficients_.data();
+  memory_.weighted = weighted_.data();
+  memory_.states = states_.data();
+  memory_.last_nonzero = last_nonzero_.data();
+  memory_.tape_size = tape_->nodes.size();
+}
+
+void TaylorSeries::start(const TapeValues<Interval>& fixed, const Choices& choices,
+                         const std::vector<bool>& held) {
+  allocate();
+  choices_ = &choices;
+  order_ = 0;
+  memory_.lanes = 0;
+  for (const std::uint32_t i : tape_->fixed_values) {
+    values_[i] = fixed[i];
+    coefficients_[i * memory_.stride] = in_all_lanes(to_ball(values_[i]));
+  }
+  for (const std::size_t n : choice_nodes_) make_choice(nodes_[n]);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    outputs_[i].held = held[i];
+    states_[i * memory_.stride] = {};
+  }
+  for (const std::uint32_t i : tape_->series) coefficients_[i * memory_.stride] = {};
+  std::fill(last_nonzero_.begin(), last_nonzero_.end(), 0);
+}
+
+void TaylorSeries::make_choice(SeriesNode& node) const {
+  if (tape_->nodes[node.self].rule == Rule::angle) {
+    node.step = is_pinned_angle(node.self) ? SeriesStep::zero : SeriesStep::angle;
+    return;
+  }
+  const FlowTape::Node& pick = tape_->nodes[node.self];
+  const Choice::Kind kind = (*choices_)[node.self].kind;
+  node.p = kind == Choice::Kind::second ? pick.q : pick.p;
+  node.p_moves = moves(node.p);
+  node.step = kind == Choice::Kind::first_negated                           ? SeriesStep::negation
+              : kind == Choice::Kind::first || kind == Choice::Kind::second ? SeriesStep::same
+                                                                            : SeriesStep::zero;
+}
+
+void TaylorSeries::add_box(std::span<const Interval> slots, const TapeValues<Interval>* known) {
+  REQUIRES(lanes() < kLanes && order_ == 0);
+  const std::size_t lane = memory_.lanes++;
+  for (std::size_t i = 0; i < tape_->state_slots.size(); ++i)
+    put(to_ball(slots[tape_->state_slots[i]]), lane, states_[i * memory_.stride]);
+  // Choices may be pinned to what the values of the tape leave open.
+  const bool use_known = known != nullptr && choice_nodes_.empty();
+  rounded_upward([&] {
+    for (const std::uint32_t i : tape_->series)
+      values_[i] = use_known && has_value_[i] ? (*known)[i] : value_of(i, slots);
+  });
+  put_values(lane);
+}
+
+/// Order 0 of a lane: the balls around the values, as to_ball() makes them.
+void TaylorSeries::put_values(std::size_t lane) {
+  for (const std::uint32_t i : tape_->series)
+    coefficients_[i * memory_.stride].middle[lane] = midpoint(values_[i]);
+  rounded_upward([&] {
+    for (const std::uint32_t i : tape_->series) {
+      BallLanes& balls = coefficients_[i * memory_.stride];
+      const double middle = balls.middle[lane];
+      balls.radius[lane] = std::max(values_[i].upper - middle, middle - values_[i].lower);
+    }
+  });
+}
+
+/// Rounded upward.
 Interval TaylorSeries::value_of(std::uint32_t i, std::span<const Interval> slots) const {
   const FlowTape::Node& node = tape_->nodes[i];
   if (node.rule == Rule::variable) return slots[node.a];
   if (node.rule == Rule::pick) return picked_value(i);
   if (is_pinned_angle(i)) return (*choices_)[i].value;
-  if (is_unary_function(node.op)) return apply(node.op, values_[node.a]);
-  return apply(node.op, values_[node.a], values_[node.b]);
+  if (is_unary_function(node.op)) return apply_upward(node.op, values_[node.a]);
+  return apply_upward(node.op, values_[node.a], values_[node.b]);
 }
 
 bool TaylorSeries::is_pinned_angle(std::uint32_t i) const {
@@ -76,171 +199,15 @@ Interval TaylorSeries::picked_value(std::uint32_t i) const {
 }
 
 void TaylorSeries::extend() {
-  REQUIRES(order_ < largest_order());
-  const std::size_t k = order_;
-  if (k > 0) {
-    for (const std::uint32_t i : tape_->series) {
-      const Ball value = next(i, k);
-      at(i, k) = value;
-      if (!value.is_zero()) last_nonzero_[i] = k;
-    }
-  }
-  order_ = k + 1;
-  set_state_coefficients(order_);
+  REQUIRES(order_ < largest_order() && lanes() > 0);
+  kernels_->extend(memory_, order_);
+  ++order_;
 }
 
-void TaylorSeries::set_state_coefficients(std::size_t k) {
-  for (std::size_t i = 0; i < tape_->outputs.size(); ++i) {
-    const std::uint32_t output = tape_->outputs[i];
-    Ball& coefficient = states_[i * stride_ + k];
-    const bool constant = (*held_)[i] || (k > 1 && !moves(output));
-    coefficient = constant ? kZero : at(output, k - 1);
-    if (k > 1 && !coefficient.is_zero()) coefficient = coefficient / as_ball(k);
-  }
-}
-
-Ball TaylorSeries::polynomial(std::size_t state, std::size_t order, const Ball& duration) const {
-  Ball sum = kZero;
-  for (std::size_t k = order; k-- > 0;) {
-    const Ball& next_coefficient = coefficient(state, k);
-    sum = sum.is_zero() ? next_coefficient : sum * duration + next_coefficient;
-  }
+BallLanes TaylorSeries::polynomials(std::size_t state, std::size_t order, const Ball& duration) const {
+  BallLanes sum;
+  kernels_->polynomial(memory_, state, order, in_all_lanes(duration), sum);
   return sum;
-}
-
-Ball TaylorSeries::picked(std::uint32_t i, std::size_t k) {
-  const FlowTape::Node& node = tape_->nodes[i];
-  const auto of = [&](std::uint32_t operand) { return moves(operand) ? at(operand, k) : kZero; };
-  switch ((*choices_)[i].kind) {
-    case Choice::Kind::first:
-      return of(node.p);
-    case Choice::Kind::second:
-      return of(node.q);
-    case Choice::Kind::first_negated:
-      return -of(node.p);
-    default:
-      return kZero;
-  }
-}
-
-Ball TaylorSeries::next(std::uint32_t i, std::size_t k) {
-  const FlowTape::Node& node = tape_->nodes[i];
-  const auto of = [&](std::uint32_t operand) { return moves(operand) ? at(operand, k) : kZero; };
-  switch (node.rule) {
-    case Rule::variable:
-      return node.p == FlowTape::kNone ? kZero : coefficient(node.p, k);
-    case Rule::sum:
-      return of(node.p) + of(node.q);
-    case Rule::difference:
-      return of(node.p) - of(node.q);
-    case Rule::negation:
-      return -of(node.p);
-    case Rule::product:
-      return node.p == node.q ? square(node.p, k) : convolution(node.p, node.q, k, 0, k);
-    case Rule::quotient:
-      return quotient(i, k);
-    case Rule::chain:
-      return chain(i, k);
-    case Rule::inverse_chain:
-      return inverse_chain(i, k);
-    case Rule::root:
-      return (of(node.p) - convolution(i, i, k, 1, k - 1)) / (as_ball(2.0) * at(i, 0));
-    case Rule::power:
-      return power(i, k);
-    case Rule::angle:
-      return is_pinned_angle(i) ? kZero : angle(i, k);
-    case Rule::pick:
-      return picked(i, k);
-    case Rule::fixed:
-      break;
-  }
-  return kZero;
-}
-
-/// sum of p_j q_{k-j} over first <= j <= last.
-Ball TaylorSeries::convolution(std::uint32_t p, std::uint32_t q, std::size_t k, std::size_t first,
-                               std::size_t last) {
-  const std::size_t p_last = moves(p) ? last_nonzero_[p] : 0;
-  const std::size_t q_last = moves(q) ? last_nonzero_[q] : 0;
-  // Order k of an operand is known already where it counts, but only recorded after this node's turn if the
-  // operand is the node itself, which `first` and `last` exclude.
-  const std::size_t from = std::max(first, k > q_last ? k - q_last : 0);
-  const std::size_t to = std::min(last, p_last);
-  Ball sum = kZero;
-  for (std::size_t j = from; j <= to && j <= k; ++j) {
-    const Ball& a = at(p, j);
-    const Ball& b = at(q, k - j);
-    if (!a.is_zero() && !b.is_zero()) sum = sum + a * b;
-  }
-  return sum;
-}
-
-Ball TaylorSeries::square(std::uint32_t p, std::size_t k) {
-  const std::size_t last = moves(p) ? last_nonzero_[p] : 0;
-  Ball sum = kZero;
-  for (std::size_t j = k > last ? k - last : 0; 2 * j < k; ++j) sum = sum + at(p, j) * at(p, k - j);
-  sum = sum + sum;
-  return k % 2 == 0 && k / 2 <= last ? sum + at(p, k / 2) * at(p, k / 2) : sum;
-}
-
-/// q r = p.
-Ball TaylorSeries::quotient(std::uint32_t i, std::size_t k) {
-  const FlowTape::Node& node = tape_->nodes[i];
-  const Ball dividend = moves(node.p) ? at(node.p, k) : kZero;
-  const Ball known = convolution(node.q, i, k, 1, k);
-  const Ball rest = dividend - known;
-  return rest.is_zero() ? kZero : rest / at(node.q, 0);
-}
-
-/// k r_k = sum of j p_j q_{k-j} over j >= 1.
-Ball TaylorSeries::chain(std::uint32_t i, std::size_t k) {
-  const FlowTape::Node& node = tape_->nodes[i];
-  const std::size_t q_last = moves(node.q) ? last_nonzero_[node.q] : 0;
-  const std::size_t p_last = std::min(k, moves(node.p) ? last_nonzero_[node.p] : 0);
-  Ball sum = kZero;
-  for (std::size_t j = std::max<std::size_t>(1, k > q_last ? k - q_last : 0); j <= p_last; ++j) {
-    sum = sum + as_ball(j) * at(node.p, j) * at(node.q, k - j);
-  }
-  return sum.is_zero() ? kZero : sum / as_ball(k);
-}
-
-/// k q_0 r_k = k p_k - sum of j r_j q_{k-j} over 1 <= j < k.
-Ball TaylorSeries::inverse_chain(std::uint32_t i, std::size_t k) {
-  const FlowTape::Node& node = tape_->nodes[i];
-  Ball sum = as_ball(k) * (moves(node.p) ? at(node.p, k) : kZero);
-  const std::size_t q_last = moves(node.q) ? last_nonzero_[node.q] : 0;
-  for (std::size_t j = std::max<std::size_t>(1, k > q_last ? k - q_last : 0); j < k; ++j) {
-    sum = sum - as_ball(j) * at(i, j) * at(node.q, k - j);
-  }
-  return sum.is_zero() ? kZero : sum / (as_ball(k) * at(node.q, 0));
-}
-
-/// p r' = q r p' for a fixed exponent q: k p_0 r_k = sum of ((q + 1) j - k) p_j r_{k-j} over 1 <= j <= k.
-Ball TaylorSeries::power(std::uint32_t i, std::size_t k) {
-  const FlowTape::Node& node = tape_->nodes[i];
-  const Ball exponent = at(node.q, 0) + as_ball(1.0);
-  Ball sum = kZero;
-  for (std::size_t j = 1; j <= std::min(k, last_nonzero_[node.p]); ++j) {
-    const Ball factor = exponent * as_ball(j) - as_ball(k);
-    sum = sum + factor * at(node.p, j) * at(i, k - j);
-  }
-  return sum.is_zero() ? kZero : sum / (as_ball(k) * at(node.p, 0));
-}
-
-/// s = p^2 + q^2: k s_0 r_k = sum of j (p_j q_{k-j} - q_j p_{k-j}) over 1 <= j <= k, less the sum of j r_j
-/// s_{k-j} over 1 <= j < k.
-Ball TaylorSeries::angle(std::uint32_t i, std::size_t k) {
-  const FlowTape::Node& node = tape_->nodes[i];
-  const auto of = [&](std::uint32_t operand, std::size_t order) {
-    return order == 0 || moves(operand) ? at(operand, order) : kZero;
-  };
-  Ball sum = kZero;
-  for (std::size_t j = 1; j <= k; ++j) {
-    Ball term = of(node.p, j) * of(node.q, k - j) - of(node.q, j) * of(node.p, k - j);
-    if (j < k) term = term - at(i, j) * of(node.square, k - j);
-    sum = sum + as_ball(j) * term;
-  }
-  return sum.is_zero() ? kZero : sum / (as_ball(k) * at(node.square, 0));
 }
 
 }  // namespace coordreq

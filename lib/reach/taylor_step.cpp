@@ -18,15 +18,20 @@ std::size_t largest_order(const FlowTape& tape) {
 TaylorStep::TaylorStep(const FlowTape& tape)
     : dimension_(tape.outputs.size()),
       over_box_(tape, largest_order(tape)),
-      at_state_(tape, largest_order(tape)) {}
+      at_state_(tape, largest_order(tape)),
+      terms_(dimension_),
+      sums_(dimension_) {}
 
-void TaylorStep::find_remainder(const VectorField& field, const Interval& duration, const Choices& choices,
-                                const std::vector<bool>& held, std::span<const double> tolerance,
+void TaylorStep::begin(const VectorField& field, const Choices& choices, const std::vector<bool>& held) {
+  over_box_.start(field.values(), choices, held);
+  over_box_.add_box(field.slots(), &field.values());
+}
+
+void TaylorStep::find_remainder(const Interval& duration, std::span<const double> tolerance,
                                 TaylorRemainder& remainder) {
   remainder.order = 0;
   remainder.bounded = true;
   remainder.value.resize(dimension_);
-  over_box_.start(field.slots(), field.values(), choices, held);
   const Ball step = to_ball(duration);
   Ball power = to_ball(1.0);
   while (over_box_.order() < over_box_.largest_order()) {
@@ -34,40 +39,51 @@ void TaylorStep::find_remainder(const VectorField& field, const Interval& durati
     power = power * step;
     remainder.bounded = is_bounded(power);
     if (!remainder.bounded) return;
-    if (over_box_.order() > 1 && is_narrow(power, tolerance, remainder.value)) {
+    if (over_box_.order() > 1 && is_narrow(tolerance, remainder.value)) {
       remainder.order = over_box_.order();
+      for (std::size_t i = 0; i < dimension_ && over_box_.lanes() > 1; ++i)
+        sums_[i] = over_box_.polynomials(i, remainder.order, step);
       return;
     }
   }
 }
 
 /// A coefficient without a bound makes all that follow so.
-bool TaylorStep::is_bounded(const Ball& power) const {
+bool TaylorStep::is_bounded(const Ball& power) {
+  bool bounded = true;
   for (std::size_t i = 0; i < dimension_; ++i) {
-    if (!((power * over_box_.coefficient(i, over_box_.order())).radius <= outward::kLargest)) return false;
+    terms_[i] = power * over_box_.coefficient(0, i, over_box_.order());
+    bounded = bounded && terms_[i].radius <= outward::kLargest;
   }
+  return bounded;
+}
+
+bool TaylorStep::is_narrow(std::span<const double> tolerance, std::vector<Interval>& value) const {
+  for (std::size_t i = 0; i < dimension_; ++i) {
+    if (!(2.0 * terms_[i].radius <= tolerance[i])) return false;
+  }
+  for (std::size_t i = 0; i < dimension_; ++i) value[i] = to_interval(terms_[i]);
   return true;
 }
 
-bool TaylorStep::is_narrow(const Ball& power, std::span<const double> tolerance,
-                           std::vector<Interval>& value) const {
-  for (std::size_t i = 0; i < dimension_; ++i) {
-    const Ball term = power * over_box_.coefficient(i, over_box_.order());
-    if (!(2.0 * term.radius <= tolerance[i])) return false;
-    value[i] = to_interval(term);
-  }
-  return true;
+void TaylorStep::advance_along(std::size_t along, const TaylorRemainder& remainder,
+                               std::span<Interval> state) const {
+  const std::size_t lane = along + 1;
+  for (std::size_t i = 0; i < dimension_; ++i)
+    state[i] = to_interval({sums_[i].middle[lane], sums_[i].radius[lane]}) + remainder.value[i];
 }
 
 void TaylorStep::advance(VectorField& field, const Interval& duration, const Choices& choices,
                          const std::vector<bool>& held, const TaylorRemainder& remainder,
                          std::span<Interval> state) {
   field.set_state(state);
-  at_state_.start(field.slots(), field.values(), choices, held);
+  at_state_.start(field.values(), choices, held);
+  at_state_.add_box(field.slots());
   while (at_state_.order() + 1 < remainder.order) at_state_.extend();
   const Ball step = to_ball(duration);
   for (std::size_t i = 0; i < dimension_; ++i) {
-    state[i] = to_interval(at_state_.polynomial(i, remainder.order, step)) + remainder.value[i];
+    const BallLanes sums = at_state_.polynomials(i, remainder.order, step);
+    state[i] = to_interval({sums.middle[0], sums.radius[0]}) + remainder.value[i];
   }
 }
 

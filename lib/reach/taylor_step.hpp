@@ -19,16 +19,25 @@ struct TaylorRemainder {
 /// the solution during the step. Scratch memory for one thread.
 class TaylorStep {
  public:
+  /// Solutions whose steps can be found along with the remainder.
+  static constexpr std::size_t kMostAlong = TaylorSeries::kLanes - 1;
+
   /// @pre unchecked: the tape outlives it.
   explicit TaylorStep(const FlowTape& tape);
 
-  /// Finds the least order whose remainder is narrower than `tolerance` for every state, if there is one.
+  /// Begins a step over a box.
   /// @param field evaluated at the box last
   /// @param choices decided for the box, no kink undecided
   /// @param held states that are kept constant
-  void find_remainder(const VectorField& field, const Interval& duration, const Choices& choices,
-                      const std::vector<bool>& held, std::span<const double> tolerance,
+  void begin(const VectorField& field, const Choices& choices, const std::vector<bool>& held);
+  /// Takes along what starts from a box within it. @pre after begin(), fewer than kMostAlong times
+  void take_along(std::span<const Interval> slots) { over_box_.add_box(slots); }
+  /// Finds the least order whose remainder is narrower than `tolerance` for every state, if there is one.
+  void find_remainder(const Interval& duration, std::span<const double> tolerance,
                       TaylorRemainder& remainder);
+  /// Where the solutions are after the step that were taken along as number `along`. @pre there is a
+  /// remainder
+  void advance_along(std::size_t along, const TaylorRemainder& remainder, std::span<Interval> state) const;
 
   /// Replaces `state` by an enclosure of where the solutions from it are after `duration`.
   /// @param field its slots hold the disturbances' values; its states are overwritten
@@ -36,12 +45,14 @@ class TaylorStep {
                const std::vector<bool>& held, const TaylorRemainder& remainder, std::span<Interval> state);
 
  private:
-  [[nodiscard]] bool is_bounded(const Ball& power) const;
-  bool is_narrow(const Ball& power, std::span<const double> tolerance, std::vector<Interval>& value) const;
+  bool is_bounded(const Ball& power);
+  bool is_narrow(std::span<const double> tolerance, std::vector<Interval>& value) const;
 
   std::size_t dimension_;
-  TaylorSeries over_box_;
+  TaylorSeries over_box_;  ///< in lane 0; what is taken along in the others
   TaylorSeries at_state_;
+  std::vector<Ball> terms_;      ///< of the last order over the box
+  std::vector<BallLanes> sums_;  ///< the polynomials of all states at the end of the step
 };
 
 }  // namespace coordreq

@@ -1,28 +1,37 @@
 #include "reach/turning_product.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <vector>
-
-#include "numeric/outward.hpp"
 
 namespace coordreq {
 namespace {
 
-IntervalMatrix points(const RealMatrix& a) {
-  return a.unaryExpr([](double x) { return Interval{x, x}; });
-}
-
-RealMatrix middles(const IntervalMatrix& a) {
-  return a.unaryExpr([](const Interval& x) { return x.lower + (x.upper - x.lower) / 2; });
+double middle_of(const UpwardInterval& x) {
+  return x.lower() + (x.upper() - x.lower()) / 2;
 }
 
 }  // namespace
 
 TurningProduct::TurningProduct(Eigen::Index dimension)
-    : middle_(dimension, dimension), frame_(dimension, dimension), rest_(dimension, dimension) {
+    : middle_(dimension, dimension),
+      frame_(dimension, dimension),
+      rest_(dimension, dimension),
+      enclosure_(dimension, dimension),
+      about_(dimension, dimension),
+      next_middle_(dimension, dimension),
+      next_frame_(dimension, dimension),
+      columns_(dimension, dimension),
+      sorted_(dimension, dimension),
+      widths_(dimension),
+      workspace_(dimension),
+      order_(static_cast<std::size_t>(dimension)),
+      decomposition_(dimension, dimension),
+      back_(dimension, dimension),
+      turned_(dimension, dimension),
+      turn_(dimension, dimension),
+      error_(dimension, dimension),
+      next_rest_(dimension, dimension) {
   reset();
 }
 
@@ -30,73 +39,94 @@ void TurningProduct::reset() {
   lost_ = false;
   middle_.setIdentity();
   frame_.setIdentity();
-  rest_.setConstant(Interval{0.0, 0.0});
+  rest_.setZero();
+  enclosure_.setIdentity();
 }
 
 /// T (C + Q R) = C' + Q' (Q'^-1 (T C - C') + (Q'^-1 T Q) R).
-void TurningProduct::append(const IntervalMatrix& factor) {
+void TurningProduct::append(const UpwardMatrix& factor) {
   if (lost_) return;
-  const RealMatrix about = middles(factor);
-  const RealMatrix middle = about * middle_;
-  const RealMatrix frame = orthogonal(about * frame_);
-  const IntervalMatrix back = inverse(frame);
-  if (lost_) return;
-  const IntervalMatrix moved = product(factor, points(middle_));
-  const IntervalMatrix error = moved - points(middle);
-  const IntervalMatrix turned = product(factor, points(frame_));
-  const IntervalMatrix turn = product(back, turned);
-  const IntervalMatrix old = product(turn, rest_);
-  const IntervalMatrix now = product(back, error);
-  rest_ = now + old;
-  middle_ = middle;
-  frame_ = frame;
+  for (Eigen::Index e = 0; e < factor.size(); ++e) about_.data()[e] = middle_of(factor.data()[e]);
+  next_middle_.noalias() = about_ * middle_;
+  columns_.noalias() = about_ * frame_;
+  find_frame();
+  lost_ = !next_frame_.allFinite();
+  if (!lost_) rounded_upward([this] { find_inverse(); });
+  if (lost_) {
+    enclosure_.setConstant(UpwardInterval(whole_line(true)));
+    return;
+  }
+  rounded_upward([&] {
+    turn(factor);
+    multiply_out();
+  });
 }
 
-Interval TurningProduct::entry(Eigen::Index i, Eigen::Index j) const {
-  if (lost_) return whole_line(true);
-  Interval sum{middle_(i, j), middle_(i, j)};
-  for (Eigen::Index k = 0; k < rest_.rows(); ++k)
-    sum = sum + Interval{frame_(i, k), frame_(i, k)} * rest_(k, j);
-  return sum;
+void TurningProduct::turn(const UpwardMatrix& factor) {
+  multiply(factor, middle_, error_);
+  for (Eigen::Index e = 0; e < error_.size(); ++e)
+    error_.data()[e] += UpwardInterval(-next_middle_.data()[e]);
+  multiply(factor, frame_, turned_);
+  multiply(back_, turned_, turn_);
+  multiply(turn_, rest_, turned_);
+  multiply(back_, error_, next_rest_);
+  for (Eigen::Index e = 0; e < rest_.size(); ++e) rest_.data()[e] = next_rest_.data()[e] + turned_.data()[e];
+  middle_.swap(next_middle_);
+  frame_.swap(next_frame_);
+}
+
+void TurningProduct::multiply_out() {
+  for (Eigen::Index i = 0; i < rest_.rows(); ++i) {
+    for (Eigen::Index j = 0; j < rest_.cols(); ++j) {
+      UpwardInterval sum(middle_(i, j));
+      for (Eigen::Index k = 0; k < rest_.rows(); ++k) sum += rest_(k, j) * frame_(i, k);
+      enclosure_(i, j) = sum;
+    }
+  }
 }
 
 /// An orthogonal basis of the columns, beginning with those along which the rest is widest.
-RealMatrix TurningProduct::orthogonal(const RealMatrix& columns) const {
-  const RealVector reach =
-      magnitudes(rest_).rowwise().sum().cwiseProduct(columns.colwise().norm().transpose());
-  // Widths that have overflowed cannot be ordered.
-  const RealVector widths = reach.unaryExpr([](double x) { return std::isfinite(x) ? x : HUGE_VAL; });
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(columns.cols()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return widths(a) > widths(b); });
-  RealMatrix sorted(columns.rows(), columns.cols());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    sorted.col(static_cast<Eigen::Index>(k)) = columns.col(order[k]);
-  return Eigen::HouseholderQR<RealMatrix>(sorted).householderQ();
+void TurningProduct::find_frame() {
+  widths_ = columns_.colwise().norm();
+  for (Eigen::Index j = 0; j < columns_.cols(); ++j) {
+    double reach = 0.0;
+    for (Eigen::Index k = 0; k < rest_.cols(); ++k) reach += rest_(j, k).magnitude();
+    widths_(j) *= reach;
+    // Widths that have overflowed cannot be ordered.
+    if (!std::isfinite(widths_(j))) widths_(j) = HUGE_VAL;
+  }
+  std::iota(order_.begin(), order_.end(), Eigen::Index{0});
+  std::sort(order_.begin(), order_.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return widths_(a) > widths_(b); });
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    sorted_.col(static_cast<Eigen::Index>(k)) = columns_.col(order_[k]);
+  decomposition_.compute(sorted_);
+  decomposition_.householderQ().evalTo(next_frame_, workspace_);
 }
 
 /// (I - E)^-1 Q^T with E = I - Q^T Q, whose norm is e: no entry is farther from Q^T than e / (1 - e) times
 /// the largest of Q, and e / (1 - e) <= 2 e where e <= 1/2.
-IntervalMatrix TurningProduct::inverse(const RealMatrix& orthogonal) {
-  lost_ = !orthogonal.allFinite();
-  if (lost_) return {};
-  const IntervalMatrix transposed = points(orthogonal.transpose());
-  const IntervalMatrix square = product(transposed, points(orthogonal));
+void TurningProduct::find_inverse() {
   double norm = 0.0;
-  for (Eigen::Index i = 0; i < square.rows(); ++i) {
-    double sum = 0.0;
-    for (Eigen::Index j = 0; j < square.cols(); ++j) {
-      const double unit = i == j ? 1.0 : 0.0;
-      sum = outward::add_up(sum, (square(i, j) - Interval{unit, unit}).magnitude());
+  for (Eigen::Index i = 0; i < next_frame_.cols(); ++i) {
+    double row = 0.0;
+    for (Eigen::Index j = 0; j < next_frame_.cols(); ++j) {
+      UpwardInterval entry(i == j ? -1.0 : 0.0);
+      UpwardInterval sum = UpwardInterval(next_frame_(0, i)) * next_frame_(0, j);
+      for (Eigen::Index k = 1; k < next_frame_.rows(); ++k)
+        sum += UpwardInterval(next_frame_(k, i)) * next_frame_(k, j);
+      entry += sum;
+      row += entry.magnitude();
     }
-    norm = std::max(norm, sum);
+    norm = std::max(norm, row);
   }
   lost_ = !(norm < 0.5);
-  const double largest = orthogonal.cwiseAbs().maxCoeff();
   // In the norm of rows an entry of (sum of E^k) Q^T is at most the norm times the largest of Q.
-  const double error = outward::multiply_up(outward::multiply_up(2.0, norm), largest);
-  return transposed.unaryExpr([error](const Interval& x) { return x + Interval{-error, error}; });
+  const double error = 2.0 * norm * next_frame_.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < back_.rows(); ++i) {
+    for (Eigen::Index j = 0; j < back_.cols(); ++j)
+      back_(i, j) = UpwardInterval(next_frame_(j, i)) + UpwardInterval(-error, error);
+  }
 }
 
 }  // namespace coordreq

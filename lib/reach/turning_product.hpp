@@ -1,6 +1,9 @@
 #pragma once
 
-#include "numeric/matrix.hpp"
+#include <Eigen/QR>
+#include <vector>
+
+#include "numeric/upward_matrix.hpp"
 
 namespace coordreq {
 
@@ -16,18 +19,37 @@ class TurningProduct {
   /// No factor yet: the identity.
   void reset();
   /// Multiplies by a bounded matrix from the left.
-  void append(const IntervalMatrix& factor);
-  /// Encloses an entry of the product; the whole line if the coordinates were lost to rounding.
-  [[nodiscard]] Interval entry(Eigen::Index i, Eigen::Index j) const;
+  void append(const UpwardMatrix& factor);
+  /// Encloses the product; whole lines if the coordinates were lost to rounding.
+  [[nodiscard]] const UpwardMatrix& enclosure() const { return enclosure_; }
 
  private:
-  [[nodiscard]] RealMatrix orthogonal(const RealMatrix& columns) const;
-  [[nodiscard]] IntervalMatrix inverse(const RealMatrix& orthogonal);
+  void find_frame();
+  void find_inverse();
+  void turn(const UpwardMatrix& factor);
+  void multiply_out();
 
   bool lost_ = false;
   RealMatrix middle_;
   RealMatrix frame_;
-  IntervalMatrix rest_;
+  UpwardMatrix rest_;
+  UpwardMatrix enclosure_;
+
+  // Scratch memory.
+  RealMatrix about_;  ///< the middle of the factor
+  RealMatrix next_middle_;
+  RealMatrix next_frame_;
+  RealMatrix columns_;
+  RealMatrix sorted_;
+  RealRow widths_;
+  RealVector workspace_;
+  std::vector<Eigen::Index> order_;
+  Eigen::HouseholderQR<RealMatrix> decomposition_;
+  UpwardMatrix back_;  ///< the inverse of the next frame
+  UpwardMatrix turned_;
+  UpwardMatrix turn_;
+  UpwardMatrix error_;
+  UpwardMatrix next_rest_;
 };
 
 }  // namespace coordreq

@@ -17,10 +17,10 @@ TEST(TransitionMatrix, OfARotation) {
   const IntervalMatrix rotation{{point(0.0), point(-1.0)}, {point(1.0), point(0.0)}};
   TransitionMatrix matrix(2, TransitionMatrix::kManyTerms);
   ASSERT_TRUE(matrix.enclose(rotation, point(2.0), {false, false}));
-  EXPECT_NEAR(matrix.end()(0, 0).lower, std::cos(2.0), 1e-14);
-  EXPECT_NEAR(matrix.end()(0, 0).upper, std::cos(2.0), 1e-14);
-  EXPECT_NEAR(matrix.end()(0, 1).lower, -std::sin(2.0), 1e-14);
-  EXPECT_NEAR(matrix.end()(0, 1).upper, -std::sin(2.0), 1e-14);
+  EXPECT_NEAR(matrix.end()(0, 0).lower(), std::cos(2.0), 1e-14);
+  EXPECT_NEAR(matrix.end()(0, 0).upper(), std::cos(2.0), 1e-14);
+  EXPECT_NEAR(matrix.end()(0, 1).lower(), -std::sin(2.0), 1e-14);
+  EXPECT_NEAR(matrix.end()(0, 1).upper(), -std::sin(2.0), 1e-14);
 }
 
 TEST(TransitionMatrix, SignsOfAMonotoneSystemAreProved) {
@@ -32,12 +32,12 @@ TEST(TransitionMatrix, SignsOfAMonotoneSystemAreProved) {
   chain(0, 1) = {-2.0, 0.0};
   TransitionMatrix matrix(n, TransitionMatrix::kFewTerms);
   ASSERT_TRUE(matrix.enclose(chain, point(0.1), std::vector<bool>(n)));
-  EXPECT_GT(matrix.end()(0, 0).lower, 0.0);
-  EXPECT_LE(matrix.end()(0, n - 1).upper, 0.0);
-  EXPECT_LT(matrix.end()(0, n - 1).lower, 0.0);
-  EXPECT_GE(matrix.end()(1, n - 1).lower, 0.0);
-  EXPECT_EQ(matrix.end()(1, 0).lower, 0.0);
-  EXPECT_EQ(matrix.end()(1, 0).upper, 0.0);
+  EXPECT_GT(matrix.end()(0, 0).lower(), 0.0);
+  EXPECT_LE(matrix.end()(0, n - 1).upper(), 0.0);
+  EXPECT_LT(matrix.end()(0, n - 1).lower(), 0.0);
+  EXPECT_GE(matrix.end()(1, n - 1).lower(), 0.0);
+  EXPECT_EQ(matrix.end()(1, 0).lower(), 0.0);
+  EXPECT_EQ(matrix.end()(1, 0).upper(), 0.0);
 }
 
 TEST(TransitionMatrix, LoopsOnTheWayCanTurnTheSign) {
@@ -54,16 +54,16 @@ TEST(TransitionMatrix, LoopsOnTheWayCanTurnTheSign) {
   ASSERT_TRUE(matrix.enclose(jacobian, point(1.5), std::vector<bool>(4)));
   const double exact = static_cast<double>(exponential(a, 1.5L)[0][3]);
   EXPECT_LT(exact, 0.0);
-  EXPECT_NEAR(matrix.end()(0, 3).lower, exact, 1e-13);
-  EXPECT_NEAR(matrix.end()(0, 3).upper, exact, 1e-13);
+  EXPECT_NEAR(matrix.end()(0, 3).lower(), exact, 1e-13);
+  EXPECT_NEAR(matrix.end()(0, 3).upper(), exact, 1e-13);
 }
 
 TEST(TransitionMatrix, UnboundedDecayDoesNoHarm) {
   const IntervalMatrix decay{{Interval(-outward::kInfinity, -1.0), point(1.0)}, {point(0.0), point(0.0)}};
   TransitionMatrix matrix(2, TransitionMatrix::kFewTerms);
   ASSERT_TRUE(matrix.enclose(decay, point(0.5), {true, false}));
-  EXPECT_GE(matrix.end()(0, 0).lower, 0.0);
-  EXPECT_LE(matrix.end()(0, 1).upper, 0.51);
+  EXPECT_GE(matrix.end()(0, 0).lower(), 0.0);
+  EXPECT_LE(matrix.end()(0, 1).upper(), 0.51);
   EXPECT_FALSE(matrix.enclose(decay, point(0.5), {false, false}));
 }
 
@@ -121,13 +121,13 @@ TEST(TransitionMatrix, HoldsThoseOfEveryTimeVaryingSystem) {
         phi = product(phi, random_piece(system, piece));
         for (std::size_t e = 0; e < system.n * system.n; ++e) {
           const long double value = phi[e / system.n][e % system.n];
-          const Interval& range = matrix.range().data()[e];
+          const Interval range = matrix.range().data()[e].interval();
           RC_ASSERT(range.lower - 1e-16L <= value && value <= range.upper + 1e-16L);
         }
       }
       for (std::size_t e = 0; e < system.n * system.n; ++e) {
         const long double value = phi[e / system.n][e % system.n];
-        const Interval& end = matrix.end().data()[e];
+        const Interval end = matrix.end().data()[e].interval();
         RC_ASSERT(end.lower - 1e-16L <= value && value <= end.upper + 1e-16L);
       }
     }

@@ -20,10 +20,10 @@ TEST(TurningProduct, WidthsOfManyRotationsAddUp) {
   constexpr double kAngle = 0.05;
   constexpr double kUncertainty = 1e-5;
   TurningProduct product(2);
-  for (int k = 0; k < kTurns; ++k) product.append(rotation(kAngle, kUncertainty));
+  for (int k = 0; k < kTurns; ++k) product.append(to_upward(rotation(kAngle, kUncertainty)));
   const IntervalMatrix exact = rotation(kTurns * kAngle, 0.0);
   for (Eigen::Index e = 0; e < 4; ++e) {
-    const Interval entry = product.entry(e / 2, e % 2);
+    const Interval entry = product.enclosure()(e / 2, e % 2).interval();
     EXPECT_TRUE(entry.contains(exact(e / 2, e % 2).lower));
     EXPECT_LE(entry.upper - entry.lower, 2.0 * kTurns * kUncertainty * 3.0);
   }
@@ -34,8 +34,8 @@ TEST(TurningProduct, HoldsProductsOfMatricesWithinTheFactors) {
   TurningProduct product(2);
   IntervalMatrix shear(2, 2);
   shear << Interval{1.0, 1.0}, Interval{0.1, 0.3}, Interval{0.0, 0.0}, Interval{1.0, 1.0};
-  for (int k = 0; k < 50; ++k) product.append(shear);
-  const Interval sheared = product.entry(0, 1);
+  for (int k = 0; k < 50; ++k) product.append(to_upward(shear));
+  const Interval sheared = product.enclosure()(0, 1).interval();
   EXPECT_LE(sheared.lower, 5.0);
   EXPECT_GE(sheared.upper, 15.0);
   EXPECT_LE(sheared.upper - sheared.lower, 10.0 + 1e-9);
@@ -43,8 +43,8 @@ TEST(TurningProduct, HoldsProductsOfMatricesWithinTheFactors) {
 
 TEST(TurningProduct, HoldsZeroAfterASingularFactor) {
   TurningProduct product(2);
-  product.append(IntervalMatrix::Constant(2, 2, Interval{0.0, 0.0}));
-  EXPECT_TRUE(product.entry(0, 0).contains(0.0));
+  product.append(to_upward(IntervalMatrix::Constant(2, 2, Interval{0.0, 0.0})));
+  EXPECT_TRUE(product.enclosure()(0, 0).contains_zero());
 }
 
 }  // namespace
