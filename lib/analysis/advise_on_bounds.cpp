@@ -30,14 +30,15 @@ Faces faces_of(const StateSpec& state) {
 /// Whether a bound lies within a cell, part of which is occupied on both sides of it.
 bool cuts_a_cell(const StateSpec& state, const Rational& value) {
   const Rational half = state.grid.step / 2;
-  const Rational last = state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
+  const Rational last =
+      state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
   const Rational low = state.below == Outside::stop ? state.grid.first : Rational(state.grid.first - half);
   const Rational high = state.above == Outside::stop ? last : Rational(last + half);
   return low < value && value < high && !faces_of(state).has(value);
 }
 
-/// "\"origin\": 0.125", or a step that divides the present one as well, with which all bounds are faces; nothing
-/// if no such step is a tenth of the present one or longer.
+/// "\"origin\": 0.125", or a step that divides the present one as well, with which all bounds are faces;
+/// nothing if no such step is a tenth of the present one or longer.
 std::optional<std::string> remedy(const StateSpec& state, const std::vector<Rational>& values) {
   constexpr long kMostParts = 10;
   for (long parts = 1; parts <= kMostParts; ++parts) {
@@ -45,7 +46,8 @@ std::optional<std::string> remedy(const StateSpec& state, const std::vector<Rati
     const Faces faces{step, values.front()};
     if (!std::ranges::all_of(values, [&](const Rational& value) { return faces.has(value); })) continue;
     const Rational centre = values.front() + step / 2;
-    const Rational origin = centre - step * Rational(mpz_class(static_cast<long>(floor_to_int(centre / step))));
+    const Rational origin =
+        centre - step * Rational(mpz_class(static_cast<long>(floor_to_int(centre / step))));
     return (parts == 1 ? "" : fmt::format("\"step\": {} and ", number(step))) +
            fmt::format("\"origin\": {}", number(origin));
   }
@@ -54,7 +56,7 @@ std::optional<std::string> remedy(const StateSpec& state, const std::vector<Rati
 
 /// States that are bounded within cells, by what mends it.
 struct CutCells {
-  std::vector<std::string> places;                        ///< "T1 at 18 and 24"
+  std::vector<std::string> places;                         ///< "T1 at 18 and 24"
   std::map<std::string, std::vector<std::string>> mended;  ///< states by remedy
 
   void add(const StateSpec& state, const std::vector<Rational>& values) {
@@ -77,7 +79,8 @@ Warnings advise_on_bounds(const ProblemSpec& spec) {
   CutCells found;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const StateSpec& state = spec.states[i];
-    const bool has_faces = !state.discrete && state.below != Outside::periodic && state.measurement_error == 0;
+    const bool has_faces =
+        !state.discrete && state.below != Outside::periodic && state.measurement_error == 0;
     if (has_faces && !values[i].empty()) found.add(state, values[i]);
   }
   if (found.places.empty()) return {};
@@ -86,9 +89,9 @@ Warnings advise_on_bounds(const ProblemSpec& spec) {
   return {{"bound", "/safe",
            fmt::format("bounds of 'safe' lie within cells, which are not safe as a whole: {}{}",
                        fmt::join(found.places, ", "),
-                       remedies.empty() ? ""
-                                        : fmt::format("; they are faces of cells with {}",
-                                                      fmt::join(remedies, ", ")))}};
+                       remedies.empty()
+                           ? ""
+                           : fmt::format("; they are faces of cells with {}", fmt::join(remedies, ", ")))}};
 }
 
 }  // namespace coordreq

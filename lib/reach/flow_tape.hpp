@@ -39,8 +39,8 @@ struct FlowTape {
   std::vector<std::uint32_t> fixed_values;  ///< nodes without moving variables, ascending
   std::vector<std::uint32_t> values;        ///< moving nodes that the equations' values need, ascending
   std::vector<std::vector<std::uint32_t>> values_of;  ///< those that each of them needs
-  std::vector<std::uint32_t> series;        ///< moving nodes that Taylor coefficients need, ascending
-  bool affine = true;                       ///< each equation has degree at most 1 in the moving variables
+  std::vector<std::uint32_t> series;  ///< moving nodes that Taylor coefficients need, ascending
+  bool affine = true;                 ///< each equation has degree at most 1 in the moving variables
 
   /// @param states slots of the states, in the order of the equations
   /// @param disturbances slots of the other moving variables

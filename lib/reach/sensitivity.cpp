@@ -154,9 +154,9 @@ bool TransitionMatrix::next_magnitude(std::size_t k, double duration) {
     for (Eigen::Index j = 0; j < n_; ++j) {
       bool any = false;
       double sum = 0.0;
-      for (Eigen::Index k = 0; k < n_; ++k) {
-        any = any || (size_(i, k) > 0.0 && magnitude_(k, j) > 0.0);
-        sum += size_(i, k) * magnitude_(k, j);
+      for (Eigen::Index m = 0; m < n_; ++m) {
+        any = any || (size_(i, m) > 0.0 && magnitude_(m, j) > 0.0);
+        sum += size_(i, m) * magnitude_(m, j);
       }
       next_size_(i, j) = any ? sum * factor * slack + kTiny : 0.0;
     }

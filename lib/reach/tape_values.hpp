@@ -44,8 +44,8 @@ class TapeValues {
   /// Evaluates what moves.
   void run_moving(std::span<const T> slots) { run(tape_->values, slots, nullptr); }
 
-  /// Evaluates some of the tape's nodes, in its order, with what they need. @param pins nodes pinned there have
-  /// the value given there; null: none
+  /// Evaluates some of the tape's nodes, in its order, with what they need. @param pins nodes pinned there
+  /// have the value given there; null: none
   void run(std::span<const std::uint32_t> nodes, std::span<const T> slots, const Choices* pins) {
     rounded_upward([&] {
       for (const std::uint32_t i : nodes) {
