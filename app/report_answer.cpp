@@ -51,7 +51,7 @@ class PartitionAnswer {
     if (unbounded() == 0 && last <= 1)
       return fmt::format("From no state may {} be silent{}, not even for one step.", who(), how_);
     if (last == 0 && how_.empty()) return capital(who()) + " never need to talk to each other.";
-    const std::string length = time_text(last - 1, results_);
+    const std::string length = last < 1 ? "" : time_text(last - 1, results_);
     if (unbounded() == 0)
       return fmt::format("{} may be silent for <strong>{}</strong>{} from the best state{}.", capital(who()),
                          length, how_, best_state());

@@ -32,7 +32,7 @@ class Tolerated {
     });
   }
 
-  /// Runs of indices of the first state. @pre one state
+  /// Runs of indices of the first state. @pre unchecked: there is one state
   [[nodiscard]] std::vector<std::pair<std::int64_t, std::int64_t>> runs() const {
     std::vector<std::pair<std::int64_t, std::int64_t>> all;
     for (std::int64_t k = 0; k < counts_[0]; ++k) {

@@ -57,7 +57,7 @@ class UpwardInterval {
     const Pair result = larger(second * b.ends_, number_or_zero(first * other));
     return UpwardInterval(larger(-second * other, larger(-first * b.ends_, result)));
   }
-  /// The same of {b}. @pre b is finite
+  /// The same of {b}. @pre unchecked: b is finite
   [[nodiscard]] friend UpwardInterval operator*(const UpwardInterval& a, double b) {
     const Pair factor{b, b};
     return UpwardInterval(larger(swapped(a.ends_) * -factor, number_or_zero(a.ends_ * factor)));

@@ -11,10 +11,9 @@ namespace {
 
 using outward::kInfinity;
 
-/// Of the period: sub-steps are no shorter.
+/// Shares of the period: sub-steps are no shorter, after kMostEvaluations of them no shorter than the second.
 constexpr double kSmallestStep = 0x1p-36;
-/// A solution that takes more sub-steps is not followed: whatever went on with longer ones would be
-/// elsewhere.
+constexpr double kSlidingStep = 0x1p-10;
 constexpr int kMostEvaluations = 200'000;
 /// A sub-step is bounded by stability where DormandPrince::stiffness() is above this; after so many of them
 /// the period is stiff.
@@ -24,11 +23,9 @@ constexpr int kStiffSteps = 1000;
 constexpr int kLooks = 8;
 /// The precision of the time of an event, as a part of a sub-step.
 constexpr double kEventShare = 0x1p-50;
-/// After so many events that come within this share of the period, none is looked for earlier, or until some
-/// state has moved by such a part of its grid step.
+/// After so many events that come within this share of the period, none is looked for earlier.
 constexpr int kShortEvents = 50;
 constexpr double kDwell = 0x1p-12;
-constexpr double kPassed = 0x1p-8;
 
 /// The length of the next sub-step relative to this one, by the error estimate.
 double growth(double error, double largest) {
@@ -147,27 +144,10 @@ bool PointFlow::is_event(double share) {
   return false;
 }
 
-/// The share of the sub-step of length h in which no event is looked for.
-double PointFlow::share_of_dwell(double h) {
-  if (short_events_ < kShortEvents) return 0.0;
-  double share = std::min(1.0, kDwell * period_ / h);
-  while (share > kEventShare && moves_far(share)) share /= 2;
-  return share;
-}
-
-/// Whether some state has moved far beyond where it was, so that it is not next to where it would slide.
-bool PointFlow::moves_far(double share) {
-  interpolate(share, point_);
-  for (Eigen::Index i = 0; i < point_.size(); ++i) {
-    if (std::fabs(point_(i) - x_(i)) > kPassed * scale_[static_cast<std::size_t>(i)]) return true;
-  }
-  return false;
-}
-
 /// The share of the sub-step of length h in which nothing happens, or a little more; 1 if that is all of it.
 double PointFlow::share_until_event(double h) {
   if (!has_events_) return 1.0;
-  const double least = share_of_dwell(h);
+  const double least = short_events_ < kShortEvents ? 0.0 : std::min(1.0, kDwell * period_ / h);
   if (least > 0.0 && is_event(least)) return least;
   double before = least;
   for (int look = 1; look <= kLooks; ++look) {
@@ -188,8 +168,7 @@ double PointFlow::share_until_event(double h) {
 /// Tries a sub-step of length h, and sets the length to try next. @returns false if there is no next state
 bool PointFlow::advance(double& left, double& h) {
   if (is_stiff_) return advance_stiffly(left, h);
-  if (++steps_ > kMostEvaluations) return false;
-  const double smallest = period_ * kSmallestStep;
+  const double smallest = period_ * (++steps_ < kMostEvaluations ? kSmallestStep : kSlidingStep);
   h = std::min(h, left);
   pair_.step([this](const Values& x, Values& result) { derivative(x, result); }, x_, h);
   const double error = relative_error();

@@ -23,8 +23,7 @@ namespace coordreq {
 /// sub-step, to 2^-50 of it. Two events that undo one another within an eighth of a sub-step are not seen.
 ///
 /// A solution that slides along a place where f jumps passes it to and fro: after 50 events in short
-/// succession the next ones are only looked for 2^-12 of the period later, or when a state has moved by 2^-8
-/// of its grid step. One that takes too many sub-steps is not followed to the end of the period.
+/// succession the next ones are only looked for 2^-12 of the period later.
 ///
 /// Scratch memory for one thread.
 class PointFlow {
@@ -69,8 +68,6 @@ class PointFlow {
   void put(const Values& x);
   [[nodiscard]] double relative_error() const;
   [[nodiscard]] double share_until_event(double h);
-  [[nodiscard]] double share_of_dwell(double h);
-  [[nodiscard]] bool moves_far(double share);
   [[nodiscard]] bool is_event(double share);
 
   double period_;

@@ -30,13 +30,14 @@ class TaylorStep {
   /// @param choices decided for the box, no kink undecided
   /// @param held states that are kept constant
   void begin(const VectorField& field, const Choices& choices, const std::vector<bool>& held);
-  /// Takes along what starts from a box within it. @pre after begin(), fewer than kMostAlong times
+  /// Takes along what starts from a box within it. @pre unchecked: after
+  /// begin(), fewer than kMostAlong times
   void take_along(std::span<const Interval> slots) { over_box_.add_box(slots); }
   /// Finds the least order whose remainder is narrower than `tolerance` for every state, if there is one.
   void find_remainder(const Interval& duration, std::span<const double> tolerance,
                       TaylorRemainder& remainder);
-  /// Where the solutions are after the step that were taken along as number `along`. @pre there is a
-  /// remainder
+  /// Where the solutions are after the step that were taken along as number `along`. @pre unchecked: there is
+  /// a remainder
   void advance_along(std::size_t along, const TaylorRemainder& remainder, std::span<Interval> state) const;
 
   /// Replaces `state` by an enclosure of where the solutions from it are after `duration`.

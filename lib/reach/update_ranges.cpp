@@ -111,7 +111,7 @@ std::vector<std::int64_t> UpdateRanges::all_at(std::span<const std::int64_t> ind
   return indices_of(indices);
 }
 
-/// @pre truths_ are those at the cell
+/// @pre unchecked: truths_ are those at the cell
 std::vector<std::int64_t> UpdateRanges::indices_of(std::span<const std::int64_t> indices) {
   for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
     if (!needed_[i]) continue;

@@ -71,7 +71,8 @@ class Cases(Case):
 
     def test_hand_cases(self):
         self.assertEqual(
-            self.blind(MATCH), {"F": 1, "layers": [2, 1], "fixed_point": 1, "truncated": False, "as_much": 1}
+            self.blind(MATCH),
+            {"F": 1, "layers": [2, 1], "fixed_point": 1, "truncated": False, "best_state": None, "as_much": 1},
         )
         delay, countdown, sizes, fixed = self.arrays(
             "blind_delay", "blind_countdown", "blind_layer_size", "blind_fixed_point_index"

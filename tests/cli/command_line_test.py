@@ -50,7 +50,7 @@ class Cases(Case):
     def test_unknown_option_of_a_command(self):
         self.assert_fails(
             2,
-            "unknown option '--fast' of validate, expected one of --help, --set, --refine, --ranks, --verbose, --threads, --max-memory, --json, --quiet",
+            "unknown option '--fast' of validate, expected one of --help, --set, --refine, --ranks, --posts, --verbose, --threads, --max-memory, --json, --quiet",
             "validate",
             "--fast",
             "spec.json",
