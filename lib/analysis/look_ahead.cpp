@@ -183,7 +183,8 @@ Warnings look_ahead(const Model& model, std::int64_t posts, ThreadTeam& team) {
   Halving halving(grid, kBoxes * posts);
   look_at_equations(spec, slots, halving, some);
   RandomStream draw(0, 0, RandomStream::Purpose::start);
-  while (some.has_work_left())
+  // Tables may have fewer entries than there is work for.
+  for (std::int64_t k = 0; k < posts && some.has_work_left(); ++k)
     some.compute(static_cast<std::int64_t>(draw.below(static_cast<std::uint64_t>(grid.cells()))));
   return found;
 }

@@ -48,8 +48,8 @@ TEST(Motion, OfAStateWithAnUpdateIsHowFarItJumps) {
       spec_of("saturate", R"("time": "continuous", "equations": {"p": "u"}, "updates": {"n": "3 - n"})"));
   EXPECT_NEAR(motion[0].amount, 1, 1e-9);
   EXPECT_EQ(motion[1].amount, 3);
-  const auto by_cell = sample_motion(
-      spec_of("saturate", R"_("time": "continuous", "equations": {"p": "u"}, "updates": {"n": "if(p > 5, 2, n)"})_"));
+  const auto by_cell = sample_motion(spec_of(
+      "saturate", R"_("time": "continuous", "equations": {"p": "u"}, "updates": {"n": "if(p > 5, 2, n)"})_"));
   EXPECT_EQ(by_cell[1].amount, 2);
 }
 
