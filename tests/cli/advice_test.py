@@ -193,7 +193,7 @@ class Cases(Case):
         spec = self.merge(speed="saturate")
         spec["dynamics"]["equations"]["p1"] = "v1/p2"
         self.write("spec.json", spec)
-        for arguments in ((), ("--posts", "1")):
+        for arguments in ((), ("--posts", "100")):
             result = self.run_program("validate", "spec.json", *arguments)
             self.assertEqual(result.returncode, 3, result.stdout)
             self.assertRegex(
@@ -213,9 +213,9 @@ class Cases(Case):
     def test_a_safe_set_without_a_state(self):
         spec = self.merge()
         spec["safe"] = "p1 >= 3 and p2 <= 1"
-        self.assertEqual(self.texts("validate", spec, "empty"), ["the safe set is empty: no state of the domain satisfies 'safe'"])
+        self.assertEqual(self.texts("validate", spec, "empty"), ["the safe set is empty on this grid"])
         self.assertEqual(self.texts("validate", spec_with(safe="x >= 5"), "empty"), ["the safe set is empty on this grid"])
-        spec["safe"] = "p1 >= 1.9 and p2 <= -19.9"
+        spec["safe"] = "p1 >= 1 and p2 <= -15"
         self.assertEqual(self.texts("validate", spec, "empty"), [])
 
     def test_posts_is_a_number(self):
@@ -322,10 +322,11 @@ class Cases(Case):
             ("if(w > 0, if(w > 0.5, 1, 3), 2)", {}),
             ("if(room == 1 and w > 0, 9, 0)", {}),
             ("if(room == 1 and w > 0, 9, 4)", {"outside": "saturate"}),
-            ("if(room == 4 and w > 0, 5, room)", {"outside": "periodic", "lower": 0, "upper": 5, "count": 5, "step": None}),
+            ("if(room == 4 and w > 0, 5, room)", {"outside": "periodic", "lower": 0, "upper": 5, "count": 5}),
         ):
             spec = rooms(equation, **more)
-            spec["states"][0] = {key: value for key, value in spec["states"][0].items() if value is not None}
+            if "count" in more:
+                del spec["states"][0]["step"]
             self.assertEqual(self.texts("analyze", spec, "numbering"), [], equation)
 
     def test_an_empty_invariance_set_and_what_helps(self):
@@ -452,8 +453,10 @@ class Cases(Case):
                 found = [own["kind"] for own in json.loads(result.stdout)["warnings"]]
                 # The first step of the tutorial says nothing of the walls, and the second one explains it.
                 expected = ["blocked"] if path.name == "corridor_1.json" else []
+                # Gaps of exactly 2 m are in the middle of cells, as the page on coalitions shows.
+                expected = ["bound"] if path.name.startswith("platoon") else expected
                 if "between_samples" in found:
-                    self.assertIn("and the program warns of it", path.read_text())
+                    self.assertIn("the program warns about this", path.read_text())
                     expected = ["between_samples"]
                 self.assertEqual(found, expected)
 

@@ -246,7 +246,7 @@ class Cases(Case):
         self.results({**LANDER, "silence": {"actions": both}})
         (partition,) = self.summary["partitions"]
         # Two down a second: from 4 by 2 into the goal, from 3 by 1 past it.
-        expected = {"F": 2, "layers": [5, 4, 3], "fixed_point": 3, "truncated": False}
+        expected = {"F": 2, "layers": [5, 4, 3], "fixed_point": 3, "truncated": False, "best_state": {"h": 3.0}}
         self.assertEqual(partition["silence"], expected)
         with h5py.File(self.folder / "r.h5") as file:
             self.assertEqual(file["silence"][...].tolist(), [[MOST, 0, MOST, 1, MOST]])

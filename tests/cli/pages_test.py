@@ -309,7 +309,7 @@ class Cases(PageCase):
         spec["dynamics"]["equations"]["n"] = "n - take + w + 1/2"
         self.write("spec.json", spec)
         result = self.run_program("analyze", "spec.json")
-        self.assertIn(b"the next value of the discrete state 'n' is in [0, 1]", result.stderr)
+        self.assertIn(b"the next value of the discrete state 'n' can be a whole interval", result.stderr)
 
     def test_a_condition_on_angles_loses_the_cells_at_their_cut(self):
         spec = {

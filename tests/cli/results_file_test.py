@@ -26,6 +26,9 @@ cells             40,401
 safe set          20,081
 invariance set    20,077
 
+horizontal\|vertical
+  From the best state \(x1 = -0\.01, x2 = 0\), 28 steps \(0\.28 s\) without coordination are safe\.
+
 axis  kind   points  first  last  unit  outside
 x1    state     201     -1     1  m     unsafe
 x2    state     201     -1     1  m     unsafe
