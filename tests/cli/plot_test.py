@@ -390,7 +390,7 @@ class Cases(PlotCase):
     def test_require_says_where_nothing_is_tolerated(self):
         self.write("spec.json", example("crossing.json"))
         self.analyze("spec.json", "-o", "out.h5")
-        words = ("--delay", "12s", "--over", "p1", "--given", "v1=3,v2=3,p2=-8", "--best", "small")
+        words = ("--delay", "12s", "--over", "v1", "--given", "p1=-3,v2=3,p2=-3", "--best", "small")
         self.write("found.json", self.run_program("require", "out.h5", *words, "--json").stdout.decode())
         data, figure = self.plotted("require", file="found.json")
         self.assertEqual(data.corners, [])
