@@ -408,18 +408,18 @@ class Cases(Case):
         # Sets without hope take a small part of the budget, so that it does not end.
         self.assertEqual(summary["work"]["left_open"], 0)
         self.assertLess(0, summary["work"]["spent"])
-        self.assertLess(summary["work"]["spent"], summary["work"]["budget"] / 4)
+        self.assertLess(summary["work"]["spent"], summary["work"]["budget"] / 100)
         # A smaller one holds, but for a piece of each set, which is finished once it is begun.
-        for seconds in (0.01, 0.1):
+        for seconds in (0.002, 0.01):
             result = self.verify("results.h5", "--json", "--budget", str(seconds))
             work = json.loads(result.stdout)["work"]
             self.assertEqual(work["budget"], round(seconds * 40_000_000))
-            self.assertLess(work["spent"], work["budget"] + 4_000_000)
+            self.assertLess(work["spent"], work["budget"] + 1_000_000)
             self.assertGreater(work["left_open"], 0)
         text = self.verify("results.h5", "--budget", "0.01").stdout.decode()
         self.assertRegex(text, r"\nthe budget ended: [0-9]+ were not looked at to the end, see --budget\n")
         # Whatever the number of threads.
-        spent = [json.loads(self.verify("results.h5", "--json", "--budget", "0.1", "--threads", n).stdout)["work"]
+        spent = [json.loads(self.verify("results.h5", "--json", "--budget", "0.01", "--threads", n).stdout)["work"]
                  for n in "13"]  # fmt: skip
         self.assertEqual(spent[0], spent[1])
 
