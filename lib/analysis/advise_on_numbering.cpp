@@ -12,8 +12,9 @@
 namespace coordreq {
 namespace {
 
-/// Posts of which all values are worked out at most, a state.
+/// Upper limits, for each state: posts whose values are all computed, and entries of its table looked at.
 constexpr int kMostPosts = 1000;
+constexpr std::size_t kMostEntries = 1'000'000;
 
 /// The cell in which an index ends; -1 or the number of cells where that is outside.
 std::int64_t cell_of(const GridDimension& dimension, std::int64_t index) {
@@ -59,7 +60,8 @@ class SkippedValues {
   [[nodiscard]] std::string find() {
     const TransitionTable& table = abstraction_.tables[own_];
     int looked_at = 0;
-    for (std::size_t e = 0; e < table.entries.size() && looked_at < kMostPosts; ++e) {
+    const std::size_t entries = std::min(table.entries.size(), kMostEntries);
+    for (std::size_t e = 0; e < entries && looked_at < kMostPosts; ++e) {
       if (std::int64_t{table.entries[e].last} - table.entries[e].first < 2) continue;
       ++looked_at;
       go_to(table, table.before + static_cast<std::int64_t>(e));

@@ -151,6 +151,8 @@ void NetcdfWriter::write_uses(const std::string& path, const Dimension& dimensio
 
 void NetcdfWriter::finish() {
   for (const auto& [path, dimension] : dimensions_) write_uses(path, dimension);
+  // HDF5 1.10 crashes where a list of its free blocks cannot be allocated while a file is closed.
+  hdf5::expect_memory();
   file_.close("close the file");
   driver_.check_written("write the file");
 }

@@ -11,6 +11,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/layers/best_cells.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/work_json.hpp"
 #include "base/index.hpp"
@@ -79,6 +80,7 @@ void find_blind_layers_of(std::size_t p, Answers& answers, const StageWork& work
                         return find_blind_levels(partition.problem, watch, work.team, layers.counts);
                       });
   follow_from_levels(context.spec.coordination.max_delay, work.team, layers);
+  find_best_cell(context, work.team, layers);
 }
 
 /// Gives tables their sizes, before they are loaded.

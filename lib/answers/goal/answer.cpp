@@ -11,6 +11,7 @@
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/layers/best_cells.hpp"
 #include "answers/layers/leaving_cells.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/work_json.hpp"
@@ -68,6 +69,7 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
     return std::move(found.layers_of);
   });
   follow_from_approach(layers, max_delay, work.team, its_layers);
+  find_best_cell(answers.context, work.team, its_layers);
 }
 
 }  // namespace

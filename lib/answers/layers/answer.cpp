@@ -59,6 +59,7 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   });
   DelayLayers& layers = all[p];
   follow_from_levels(coordination.max_delay, work.team, layers);
+  find_best_cell(context, work.team, layers);
   if (!counts_leaving(context, layers)) return;
   layers.leaving.emplace();
   if (layers.sizes.back() == context.over_cells) return;

@@ -83,36 +83,44 @@ class SpecNumbers {
 
 /// The least number, in the order of the spec, of the cells with a level. Together.
 std::int64_t first_cell(const AnalysisContext& context, const DelayLayers& layers, std::int64_t level,
-                        const SpecNumbers& numbers) {
+                        const SpecNumbers& numbers, ThreadTeam& team) {
+  constexpr std::int64_t kGrain = 1024;
   const std::int64_t row_length = context.abstraction->grid.row_length();
-  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  const RowShare* const share = context.share ? &*context.share : nullptr;
+  std::vector<std::int64_t> first(static_cast<std::size_t>(team.size()),
+                                  std::numeric_limits<std::int64_t>::max());
   layers.layers_of.visit([&](const auto& levels) {
-    const std::int64_t begin = context.share ? context.share->own().begin : 0;
-    const std::int64_t end = context.share ? context.share->own().end : levels.rows();
-    for (std::int64_t r = begin; r < end; ++r) {
-      const auto* const row = levels.row(r);
-      // Along a run numbers rise, so that the first cell of a run is enough.
-      levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-        const auto* const at = find_level(row + lane, row + lane + count, level);
-        if (at != row + lane + count) first = std::min(first, numbers.of(r * row_length + (at - row)));
-      });
-    }
+    for_each_own_row(team, share, levels.rows(), kGrain, [&](ThreadTeam::Range range, int worker) {
+      std::int64_t& least = first[static_cast<std::size_t>(worker)];
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
+        const auto* const row = levels.row(r);
+        // Along a run numbers rise, so that the first cell of a run is enough.
+        levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+          const auto* const at = find_level(row + lane, row + lane + count, level);
+          if (at != row + lane + count) least = std::min(least, numbers.of(r * row_length + (at - row)));
+        });
+      }
+    });
   });
-  return context.share ? -context.ranks->greatest(-first) : first;
+  const std::int64_t least = *std::min_element(first.begin(), first.end());
+  return share == nullptr ? least : -context.ranks->greatest(-least);
 }
 
 }  // namespace
 
+void find_best_cell(const AnalysisContext& context, ThreadTeam& team, DelayLayers& layers) {
+  if (const std::optional<std::int64_t> level = best_level(layers))
+    layers.best_cell = first_cell(context, layers, *level, SpecNumbers(context.abstraction->grid), team);
+}
+
 Json best_state_json(const AnalysisContext& context, const DelayLayers& layers) {
-  const std::optional<std::int64_t> level = best_level(layers);
-  if (!level) return {};
+  if (!layers.best_cell) return {};
   const UniformGrid& grid = context.abstraction->grid;
   const SpecNumbers numbers(grid);
-  const std::int64_t cell = first_cell(context, layers, *level, numbers);
   Json json = Json::object();
   for (std::size_t state = 0; state < grid.size(); ++state) {
     const std::size_t i = grid.dimension_of(state);
-    json[grid[i].name] = nearest_double(grid[i].point(numbers.index(cell, i)));
+    json[grid[i].name] = nearest_double(grid[i].point(numbers.index(*layers.best_cell, i)));
   }
   return json;
 }

@@ -21,9 +21,10 @@ struct GridSide {
 [[nodiscard]] std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context,
                                                         const DelayLayers& layers);
 
-/// The centre of the first cell, in the order of the spec, of those with the longest finite delay, by the
-/// names of the states; null if there is no finite delay above 0, or if none is known to be the longest.
-/// Together.
+/// Finds DelayLayers::best_cell. Cost: a pass over the levels, by all threads. Together.
+void find_best_cell(const AnalysisContext& context, ThreadTeam& team, DelayLayers& layers);
+
+/// The centre of DelayLayers::best_cell by the names of the states; null if there is none.
 [[nodiscard]] Json best_state_json(const AnalysisContext& context, const DelayLayers& layers);
 
 }  // namespace coordreq

@@ -11,6 +11,7 @@
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/layers/best_cells.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/silence/fields.hpp"
 #include "answers/silence/silent_actions.hpp"
@@ -98,6 +99,7 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   if (partition.lacking.empty())
     partition.lacking = sums(context, SilentActions(answers, rules, classes, asked, work.team));
   follow_from_levels(coordination.max_delay, work.team, partition.layers);
+  find_best_cell(context, work.team, partition.layers);
 }
 
 std::string stage_name(const ProblemSpec& spec, std::size_t p) {
