@@ -1,7 +1,6 @@
-"""Which joint inputs the controller C and its independent counterpart IND_C admit at a state
+"""The joint inputs that the controller C and independent choice IND_C admit at a state
 
-Over two inputs, the others held at the values of --slice. FILE needs "output": {"controller": true, "actions": true} in
-its spec."""
+Over two inputs; --slice fixes the others. FILE needs "output": {"controller": true, "actions": true} in its spec."""
 
 from dataclasses import dataclass
 
@@ -34,7 +33,7 @@ class Actions:
 
 
 def add_arguments(parser):
-    parser.add_argument("--at", required=True, metavar="STATE=VALUE,...", help="the state, as x1=0.1,x2=1/3")
+    parser.add_argument("--at", required=True, metavar="STATE=VALUE,...", help="the state, e.g. x1=0.1,x2=1/3")
     parser.add_argument("--partition", metavar="NAME", help="partition (default: the only one)")
     add_cut_arguments(parser, 2, "input")
 

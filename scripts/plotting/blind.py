@@ -1,7 +1,7 @@
-"""Silence with sight of the others and without it, and what a class may then do: its silent table as a map
+"""Silence with full observation and with own observations only, and the silent table of a class as a map
 
-Delays over two states, the others cut with --slice; beside them, over states that the class sees, how many of its actions are
-in the row of its table for --left steps, cut by the same values. FILE needs "sees" in its spec."""
+Delays over two states; --slice fixes the others. Beside them, over states that the class sees: the number of actions that its
+table permits with --left steps of silence left, at the same values. FILE needs "sees" in its spec."""
 
 from dataclasses import dataclass
 
@@ -48,7 +48,7 @@ def add_arguments(parser):
     add_cut_arguments(parser, 2)
     parser.add_argument("--partition", metavar="NAME", help="partition (default: the only one)")
     parser.add_argument("--class", dest="class_name", metavar="NAME", help="class of the table (default: the first)")
-    parser.add_argument("--left", default="1", metavar="K", help="steps of silence that are left (default: 1)")
+    parser.add_argument("--left", default="1", metavar="K", help="remaining steps of silence (default: 1)")
 
 
 def prepare(arguments):
@@ -58,7 +58,7 @@ def prepare(arguments):
     partition = results.partition(arguments.partition)
     cut = make_cut(results, arguments, directions=2, fewest=1)
     panels = [
-        panel_of("silence with sight", cut.read("/delay", partition), results.flags("/delay")),
+        panel_of("silence with full observation", cut.read("/delay", partition), results.flags("/delay")),
         panel_of("without", cut.read("/blind_delay", partition), results.flags("/blind_delay")),
     ]
     name = results.partitions[partition]
@@ -101,6 +101,8 @@ def _table(results, partition, arguments):
     path = f"{group}/{name}"
     by_name = {axis.name: axis for axis in results.states}
     seen = [by_name[axis] for axis in results.axes_of(path)[1:-1]]
+    if not seen:
+        raise UsageError(f"'{name}' sees no state: its table has no map; expected a class that sees one", "--class")
     slices = named_values(arguments.slice, "--slice")
     # Those that are not drawn beside it are cut only where there are more than two.
     free = [axis for axis in seen if axis.name not in slices] if len(seen) > 2 else seen
@@ -131,7 +133,7 @@ def draw(blind, size=None):
     style.legend_below(
         figure,
         [(COLORS[kind], _TEXTS[kind]) for kind in found]
-        + [(shades[count], f"{count} of {table.actions} actions" if count else "cannot be there") for count in counts],
+        + [(shades[count], f"{count} of {table.actions} actions" if count else "unreachable") for count in counts],
     )
     return figure
 

@@ -1,6 +1,6 @@
-"""Who must talk to whom: per cell the cheapest partition that is safe for the horizon without further contact
+"""The cheapest partition of each cell that is safe for the horizon without further contact
 
-Over two states, the others cut with --slice. FILE needs "coordination": {"horizon": ...} in its spec."""
+Over two states; --slice fixes the others. FILE needs "coordination": {"horizon": ...} in its spec."""
 
 from dataclasses import dataclass
 

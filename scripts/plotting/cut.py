@@ -33,7 +33,7 @@ class Cut:
 
 def add_cut_arguments(parser, directions, kind="state"):
     metavar = kind.upper()
-    text = f"values of the {kind}s that are not drawn; may be repeated"
+    text = f"value of a {kind} that is not drawn; may be repeated"
     parser.add_argument("--slice", action="append", default=[], metavar=f"{metavar}=VALUE,...", help=text)
     for direction in _DIRECTIONS[:directions]:
         text = f"{kind} along the {direction} axis (default: the next one that is not cut)"

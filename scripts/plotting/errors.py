@@ -27,6 +27,6 @@ class StreamError(PlotError):
 
 
 def quoted(names, last="or"):
-    """'a', 'b' or 'c'"""
+    """'a', 'b' or 'c'; of no names: nothing"""
     texts = [f"'{name}'" for name in names]
-    return f" {last} ".join(filter(None, [", ".join(texts[:-1]), texts[-1]]))
+    return f" {last} ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]])) or "nothing"

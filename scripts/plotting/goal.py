@@ -1,6 +1,6 @@
-"""The way to the goal: how many steps it takes at most, and how many of them cost no time without coordination
+"""Worst-case time to the goal, and the silence that costs no time
 
-Over two states, the others cut with --slice. FILE needs a "goal" in its spec."""
+Over two states; --slice fixes the others. FILE needs a "goal" in its spec."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from .results import Results
 # Kinds of cells that are drawn in one colour, and -1 for those with steps to show.
 NOT_SAFE, NOT_INVARIANT, NO_WAY, FREE = range(4)
 _COLORS = (style.NOT_SAFE, style.NOT_INVARIANT, style.NO_PARTITION, style.FREE)
-_TEXTS = ("not safe", "safe, not invariant", "goal cannot be forced", "silent for ever, in time")
+_TEXTS = ("not safe", "safe, not invariant", "goal cannot be forced", "unbounded silence, in time")
 
 # Where so few cells take so many times as long as the others, these share the colours.
 _FEW = 0.02

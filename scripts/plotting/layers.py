@@ -1,8 +1,8 @@
 """The delay map: how many steps without coordination each cell tolerates
 
-Over two states, the others cut with --slice. With --snapshots 1,14,29 one panel for each k: cells that do not tolerate k
-steps, coloured by their delay, around the layer Z_k. The colours are those of all cells, so that slices compare; with
---own-scale those of the delays that are shown."""
+Over two states; --slice fixes the others. With --snapshots 1,14,29 there is one panel for each k: cells that do not tolerate k
+steps, coloured by their delay, around the layer Z_k. Colours are scaled to all cells, so that slices can be compared; with
+--own-scale to the delays that are shown."""
 
 from dataclasses import dataclass
 
@@ -42,7 +42,7 @@ def add_arguments(parser):
     add_cut_arguments(parser, 2)
     parser.add_argument("--partition", metavar="NAME", help="partition (default: the only one)")
     parser.add_argument("--own-scale", action="store_true", help="colours for the delays of this slice alone")
-    parser.add_argument("--snapshots", metavar="K,...", help="layers to show, as 1,14,29")
+    parser.add_argument("--snapshots", metavar="K,...", help="layers to show, e.g. 1,14,29")
 
 
 def prepare(arguments):

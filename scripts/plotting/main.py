@@ -1,6 +1,7 @@
 """The command line of coordreq-plot, scripts/plot in the source tree."""
 
 import argparse
+import difflib
 import re
 import signal
 import sys
@@ -31,7 +32,9 @@ class _Parser(argparse.ArgumentParser):
             raise UsageError(f"unknown argument '{unknown[1]}', {self._see_help()}")
         choice = re.fullmatch(r"argument FIGURE: invalid choice: '(.*)' \(choose from .*\)", message)
         if choice:
-            raise UsageError(f"unknown figure '{choice[1]}', expected {quoted(_FIGURES)}")
+            near = difflib.get_close_matches(choice[1].lower(), _FIGURES, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"expected {quoted(_FIGURES)}"
+            raise UsageError(f"unknown figure '{choice[1]}', {hint}")
         option, what = re.fullmatch(r"argument ([^:]*): (.*)", message).groups()
         what = "expected a value, found none" if what == "expected one argument" else what
         raise UsageError(what, option.split("/")[-1])
@@ -55,7 +58,7 @@ def _dpi(text):
 
 
 def _parser(modules, program):
-    epilog = f"'{program} FIGURE --help' tells the options of a figure. {_EPILOG}"
+    epilog = f"'{program} FIGURE --help' shows the options of a figure. {_EPILOG}"
     parser = _Parser(prog=program, description="Draws figures of coordreq results.", epilog=epilog)
     commands = parser.add_subparsers(dest="figure", metavar="FIGURE", required=True)
     for name, module in modules.items():
@@ -74,7 +77,7 @@ def _parser(modules, program):
         )
         module.add_arguments(command)
         command.add_argument("--size", type=_size, metavar="WxH", help="size of the picture, inches")
-        command.add_argument("--dpi", type=_dpi, default=150, help="dots an inch of a PNG (default: 150)")
+        command.add_argument("--dpi", type=_dpi, default=150, help="dots per inch of a PNG (default: 150)")
     return parser
 
 
@@ -89,7 +92,8 @@ def _modules():
         return {name: importlib.import_module(f".{name}", __package__) for name in _FIGURES}
     except ModuleNotFoundError as error:
         raise StreamError(
-            f"Python has no module '{error.name}', expected the Debian packages of scripts/packages.txt"
+            f"Python ({sys.executable}) has no module '{error.name}', expected h5py and matplotlib, in Debian the packages of "
+            "scripts/packages.txt"
         ) from error
 
 

@@ -1,7 +1,7 @@
-"""For which values so much silence is tolerated: what 'coordreq require RESULTS ... --json' printed
+"""The values that tolerate a given silence: what 'coordreq require RESULTS ... --json' printed
 
-Of one state a bar over its domain, coloured where what was asked for holds; of two the plane of both, coloured from which values
-on it holds. It holds whatever the states are that were not given; white where it does not in some cell, or is not known to."""
+For one state a bar over its domain, coloured where the limit holds; for two states their plane, coloured from the values on which
+it holds. It holds for all values of the states that were not given. White: some cell does not keep the limit, or this is not known."""
 
 import json
 from dataclasses import dataclass

@@ -1,9 +1,8 @@
-"""How many cells tolerate how long without coordination, with the lines of the requirements
+"""A histogram of the delay over the cells of the invariance set, with the requirements
 
-A histogram of the delay over the cells of the invariance set for each partition. A requirement is a line at the delay
-that it asks for in its region, through the bar of the cells with just that delay; it is solid if it holds and dashed if
-it fails. The cells of its region are counted in bars of its colour. Cells that never need to coordinate have a bar of
-their own on the right. The number of cells is on a logarithmic scale where regions would else be too small to see."""
+One panel for each partition. A requirement is a line at the delay that it asks for, through the bar of the cells with this delay:
+solid if it holds, dashed if it fails. The cells of its region are bars of its colour. Cells with unbounded delay have a bar of
+their own on the right. The number of cells is on a logarithmic scale where regions would otherwise be too small to see."""
 
 import math
 from dataclasses import dataclass, replace

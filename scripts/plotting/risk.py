@@ -1,6 +1,6 @@
-"""The risk: how likely the agents are to leave the invariance set within the horizon, by powers of ten
+"""The probability of leaving the invariance set within the horizon, in powers of ten
 
-Over two states, the others cut with --slice, one picture for each mode of the network. FILE needs a "risk" in its spec."""
+Over two states; --slice fixes the others. One panel for each mode of the network. FILE needs a "risk" in its spec."""
 
 from dataclasses import dataclass
 
@@ -18,7 +18,8 @@ NOT_SAFE, NOT_INVARIANT, NO_RISK = range(3)
 _COLORS = (style.NOT_SAFE, style.NOT_INVARIANT, style.FREE)
 _TEXTS = ("not safe", "safe, not invariant", "no risk")
 
-_LEAST = -12  # power of ten below which all risks share a colour
+_LEAST = -12  # power of ten below which all risks share a colour,
+_BELOW = "#fff7d6"  # this one
 _MOST_MODES = 4  # drawn without being named
 
 
@@ -76,8 +77,8 @@ def draw(risk, size=None):
     figure = style.new_figure(size, (1.2 + 3.9 * len(risk.panels), 4.3))
     grid = figure.subplots(1, len(risk.panels), squeeze=False, sharex=True, sharey=True)
     levels = _levels(risk.panels)
-    cmap = matplotlib.colormaps["viridis_r"].resampled(len(levels) - 1)
-    norm = BoundaryNorm(levels, len(levels) - 1, clip=True)
+    cmap = matplotlib.colormaps["viridis_r"].resampled(len(levels) - 1).with_extremes(under=_BELOW)
+    norm = BoundaryNorm(levels, len(levels) - 1)
     for axes, panel in zip(grid.flat, risk.panels):
         style.kind_image(axes, panel.kinds, _COLORS, style.extent_of(cut))
         style.power_image(axes, panel.powers, cmap, norm, style.extent_of(cut))
@@ -86,7 +87,8 @@ def draw(risk, size=None):
     for axes in grid.flat:
         axes.label_outer()
     if any(panel.powers.count() for panel in risk.panels):
-        style.add_power_bar(figure, list(grid.flat), levels, cmap, norm, "risk")
+        is_below = any(panel.powers.min() < levels[0] for panel in risk.panels if panel.powers.count())
+        style.add_power_bar(figure, list(grid.flat), levels, cmap, norm, "risk", is_below)
     style.add_title(figure, f"{results.title}, risk within {results.seconds(risk.horizon)}", cut.title)
     found = {int(kind) for panel in risk.panels for kind in np.unique(panel.kinds)}
     style.legend_below(figure, [(_COLORS[kind], _TEXTS[kind]) for kind in sorted(found - {-1})])

@@ -1,11 +1,10 @@
 """A simulation: trajectories, countdown, delay, margin and inputs over time
 
-FILE is one that `coordreq simulate -o` wrote. The delay is that of the cell that the system is in: what the agents
-would find if they looked; their countdown never exceeds it. With --plane x1,y1 --plane x2,y2 trajectories are drawn
-over these pairs of states in one plane, else every state over time. What keeps its value until the next sample is drawn
-in steps, the last sample for one period more; lines break at the seam of a periodic state. Dots are samples, where they
-are not too many. Grey is what is not safe: below a margin of 0, and among the states where "safe" asks, of those on the
-axes, for no other than what is drawn (over time for one of them, the others as they are in the run)."""
+FILE comes from `coordreq simulate -o`. The delay is that of the current cell; the countdown of the agents never exceeds it. With
+--plane x1,y1 --plane x2,y2 trajectories are drawn over these pairs of states in one plane, otherwise every state over time. Values
+that are held until the next sample are drawn as steps; lines break at the seam of a periodic state. Dots are samples, if there are
+not too many. Grey is unsafe: a margin below 0, and unsafe states if safety depends only on the states on the axes (over time: on
+one of them, with the others as in the run)."""
 
 import math
 import textwrap
@@ -23,6 +22,7 @@ _MARGIN, _COORDINATION = "#6a3d9a", "#b2182b"  # no colours of states or inputs
 _GREY = ListedColormap([style.NOT_INVARIANT])
 _FINE = 400  # points along an axis where it is asked what is not safe
 _MOST_DOTS = 80
+_STEP_TICKS = 6  # that have room one above another
 
 
 def add_arguments(parser):
@@ -85,8 +85,9 @@ def _draw_curves(axes, run, curves):
             axes.plot(*curve.points[:1].T, "o", color=color, fillstyle="none")
             axes.plot(*curve.points[-1:].T, "s", color=color)
     if run.flat:
-        axes.plot([], [], "o", color="black", fillstyle="none", label="start")
-        axes.plot([], [], "s", color="black", label="end")
+        color = _look(curves[0][0])[0] if len(curves) == 1 else "black"
+        axes.plot([], [], "o", color=color, fillstyle="none", label="start")
+        axes.plot([], [], "s", color=color, label="end")
     names = ", ".join(curve.label for _, curve in curves)
     axes.set_xlabel(style.plain(run.x_label))
     axes.set_ylabel(style.plain(run.y_label if run.flat else with_unit(names, curves[0][1].unit)))
@@ -104,9 +105,10 @@ def _draw_samples(axes, curve, color):
 
 
 def _draw_inputs(axes, run, curves, unit):
-    for i, curve in curves:
+    # Wide lines first: those that lie under others are seen at both sides of them.
+    for width, (i, curve) in zip(range(len(curves), 0, -1), curves):
         color, dashes = _look(i)
-        axes.plot(*curve.path.T, dashes, color=color, linewidth=1, label=style.plain(curve.label))
+        axes.plot(*curve.path.T, dashes, color=color, linewidth=min(2 * width - 1, 5), label=style.plain(curve.label))
         _draw_samples(axes, curve, color)
     axes.set_ylabel(style.plain(with_unit("input", unit)))
     axes.set_xlabel(style.plain(with_unit("time", run.time_unit)))
@@ -175,9 +177,9 @@ def _draw_steps(axes, run):
 
 def _step_ticks(axes, highest, never, has_never):
     """Whole steps, and at the place of what never ends its name instead of a number."""
-    steps = style.whole_steps(highest)
-    axes.set_yticks(steps + [never] * has_never, [f"{k}" for k in steps] + ["never"] * has_never)
     top = never if has_never else max(highest, 1)
+    steps = [k for k in style.whole_steps(highest, _STEP_TICKS) if not has_never or never - k > top / (2 * _STEP_TICKS)]
+    axes.set_yticks(steps + [never] * bool(has_never), [f"{k}" for k in steps] + ["never"] * bool(has_never))
     axes.set_ylim(-0.05 * top, 1.05 * top)
 
 

@@ -95,7 +95,7 @@ def _chosen_run(text, runs):
 def _parse_plane(text, names):
     pair = [name.strip() for name in text.split(",")]
     if len(pair) != 2:
-        raise UsageError(f"expected two states as in x1,y1, found '{text}'", "--plane")
+        raise UsageError(f"expected two states such as x1,y1, found '{text}'", "--plane")
     for name in pair:
         if name not in names:
             raise UsageError(f"'{name}' is no state, expected {quoted(names)}", "--plane")

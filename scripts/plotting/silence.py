@@ -1,6 +1,6 @@
-"""Silence as the controller leaves it to the agents, and with a rule for what they do while it lasts
+"""Silence without a rule, and under the communication-loss rule
 
-Over two states, the others cut with --slice. FILE needs "silence" in its spec."""
+Over two states; --slice fixes the others. FILE needs "silence" in its spec."""
 
 from dataclasses import dataclass
 
@@ -31,10 +31,10 @@ def prepare(arguments):
     partition = results.partition(arguments.partition)
     cut = make_cut(results, arguments, directions=2, fewest=1)
     panels = [
-        panel_of("as the controller leaves it", cut.read("/delay", partition), results.flags("/delay")),
-        panel_of("with the rule of silence", cut.read("/silence", partition), results.flags("/silence")),
+        panel_of("without a rule", cut.read("/delay", partition), results.flags("/delay")),
+        panel_of("with the communication-loss rule", cut.read("/silence", partition), results.flags("/silence")),
     ]
-    outside = "safe, but nothing keeps it so" if "/silence_set" in results else "safe, not invariant"
+    outside = "safe, but outside the silence set" if "/silence_set" in results else "safe, not invariant"
     return Silence(cut, results.partitions[partition], panels, ("not safe", outside, "unbounded"))
 
 

@@ -48,9 +48,9 @@ def step_colors(most, way=False):
     return cmap, Normalize(-0.5, most + 0.5)
 
 
-def whole_steps(most):
-    """Some of the numbers 0 to `most`, for ticks."""
-    return [int(k) for k in MaxNLocator(10, integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
+def whole_steps(most, ticks=10):
+    """Some of the numbers 0 to `most`, for about so many ticks."""
+    return [int(k) for k in MaxNLocator(ticks, integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
 
 
 def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02, is_cut=False, way=False):
@@ -95,9 +95,13 @@ def power_image(axes, powers, cmap, norm, extent):
     return axes.imshow(powers.T, cmap=cmap, norm=norm, **_image(extent))
 
 
-def add_power_bar(figure, axes, powers, cmap, norm, label):
-    """A colour bar with a tick at each of these powers of ten."""
-    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, fraction=0.06, pad=0.02, extend="min")
+def add_power_bar(figure, axes, powers, cmap, norm, label, is_below):
+    """A colour bar with a tick at each of these powers of ten.
+
+    @param is_below whether there is something below the least of them, in the colour for that
+    """
+    place = {"fraction": 0.06, "pad": 0.02, "extend": "min" if is_below else "neither"}
+    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, **place)
     bar.ax.yaxis.set_major_locator(FixedLocator(powers))
     bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda k, _: f"$10^{{{round(k)}}}$" if k < 0 else "1"))
     bar.ax.minorticks_off()

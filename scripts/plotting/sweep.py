@@ -1,7 +1,7 @@
-"""How the risk depends on a swept value: what 'coordreq analyze --sweep PATH=V1,V2 --json' printed
+"""The risk over a swept value: what 'coordreq analyze --sweep PATH=V1,V2 --json' printed
 
-To the left the mean and the worst risk over the invariance set, to the right the share of it whose risk is small enough;
-both in the mode in which the network begins. FILE needs runs of a spec with a "risk", of which one value is swept."""
+Left: the mean and the worst risk over the invariance set. Right: the share of the set whose risk is small enough. Both are for the
+initial mode of the network. FILE needs runs of a spec with a "risk" and one swept value."""
 
 import json
 import math

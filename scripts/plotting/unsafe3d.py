@@ -1,8 +1,8 @@
-"""The unsafe region in three dimensions, and how it grows with the connection delay
+"""The unsafe region in three dimensions, and its growth with the connection delay
 
-First the cells outside the invariance set K, coloured by the time within which the worst case collides, whatever is
-coordinated. Then for each connection delay D the cells that cannot tolerate D steps without coordination, coloured by their
-delay. Three states are drawn, the others cut with --slice."""
+First the cells outside the invariance set K, coloured by the collision time (with full coordination). Then for each connection
+delay D the cells that do not tolerate D steps without coordination, coloured by their delay. If the unsafe region surrounds K and
+would hide it, the complements are drawn: K, and the cells that tolerate D steps. Three states are drawn; --slice fixes the others."""
 
 import math
 from dataclasses import dataclass
@@ -19,9 +19,12 @@ from .surface import visible_faces
 from .values import whole_numbers
 
 _VIEW = (24.0, -56.0)
+_ONE_COLOR, _UNBOUNDED = -1, -2
+_INVARIANT, _FREE = style.KINDS[0], "#f2f2f2"
 _LIGHT = (0.93, 0.85, 1.0)  # of faces across each dimension
 _LABEL_PAD = {"x": 9, "y": 9, "z": 4}  # points
 _BAR = {"shrink": 0.6, "pad": 0.1}  # so far from axes whose labels the layout does not see
+_HIDING = 0.5  # share of the visible sides of the domain from which on the unsafe region hides K
 _WIDEST = 3  # longest side of the drawn box over the shortest
 
 
@@ -29,7 +32,7 @@ _WIDEST = 3  # longest side of the drawn box over the shortest
 class Panel:
     title: str
     members: np.ndarray  # bool [x, y, z]
-    steps: np.ndarray  # [x, y, z], colours of the members; -1: one grey
+    steps: np.ndarray  # [x, y, z], colours of the members; _ONE_COLOR, _UNBOUNDED: no number
 
 
 @dataclass(frozen=True)
@@ -39,12 +42,11 @@ class Unsafe:
     collision: Panel
     growth: list[Panel]
     view: tuple[float, float]  # elevation and azimuth, degrees
+    is_inside: bool  # K and what tolerates D is drawn, and not what does not
 
     @property
     def viewer(self):
-        """For each axis the end that the viewer sees, 1 or -1."""
-        elevation, azimuth = map(math.radians, self.view)
-        return tuple(1 if end >= 0 else -1 for end in (math.cos(azimuth), math.sin(azimuth), elevation))
+        return _viewer(self.view)
 
     @property
     def most_collision(self):
@@ -55,6 +57,19 @@ class Unsafe:
         return max(map(_most, self.growth), default=0)
 
 
+def _viewer(view):
+    """For each axis the end that the viewer sees, 1 or -1."""
+    elevation, azimuth = map(math.radians, view)
+    return tuple(1 if end >= 0 else -1 for end in (math.cos(azimuth), math.sin(azimuth), elevation))
+
+
+def _hides(outside, view):
+    """Whether cells cover so much of the sides of the domain that what they lie around is not seen."""
+    sides = [np.take(outside, -1 if end > 0 else 0, axis=axis) for axis, end in enumerate(_viewer(view))]
+    covered = [side.mean() for side in sides]
+    return not outside.all() and min(covered) > 0 and sum(covered) / len(covered) > _HIDING
+
+
 def _most(panel):
     return int(panel.steps[panel.members].max(initial=0))
 
@@ -62,7 +77,7 @@ def _most(panel):
 def add_arguments(parser):
     add_cut_arguments(parser, 3)
     parser.add_argument("--partition", metavar="NAME", help="partition (default: the only one)")
-    text = "connection delays D in steps, as 5,10 (default: two between 0 and F)"
+    text = "connection delays D in steps, e.g. 5,10 (default: two between 0 and F)"
     parser.add_argument("--delays", metavar="D,...", help=text)
     text = "elevation (-90 to 90) and azimuth of the viewer in degrees (default: 24,-56)"
     parser.add_argument("--view", metavar="E,A", help=text)
@@ -78,11 +93,17 @@ def prepare(arguments):
         last = len(results.read("/layer")) - 1
         delays = sorted({-(-last // 6), -(-last // 2)})
     outside = cut.read("/invariant") == 0
-    collision = Panel("outside K", outside, cut.read("/collision_time").astype(int))
     delay = cut.read("/delay", partition).astype(int)
-    steps = np.where(outside, -1, delay)
-    growth = [Panel(f"D = {results.seconds(d)}", delay < d, steps) for d in delays]
-    return Unsafe(cut, results.partitions[partition], collision, growth, view)
+    steps = np.where(outside, _ONE_COLOR, delay)
+    is_inside = _hides(outside, view)
+    if is_inside:
+        steps[delay == results.flags("/delay")["unbounded"]] = _UNBOUNDED
+        first = Panel("K", ~outside, np.full(outside.shape, _ONE_COLOR))
+        growth = [Panel(f"tolerates {results.seconds(d)}", delay >= d, steps) for d in delays]
+    else:
+        first = Panel("outside K", outside, cut.read("/collision_time").astype(int))
+        growth = [Panel(f"D = {results.seconds(d)}", delay < d, steps) for d in delays]
+    return Unsafe(cut, results.partitions[partition], first, growth, view, is_inside)
 
 
 def _parse_view(text):
@@ -107,13 +128,21 @@ def draw(unsafe, size=None):
         _draw_cells(axes, unsafe, panel, most)
         _label_axes(axes, cut, unsafe.view)
         axes.set_title(style.plain(panel.title))
-    style.add_step_bar(figure, places[:1], unsafe.most_collision, "collision within", results, location="left", **_BAR)
+    if not unsafe.is_inside:
+        style.add_step_bar(figure, places[:1], unsafe.most_collision, "collision within", results, location="left", **_BAR)
     if any((panel.members & (panel.steps >= 0)).any() for panel in unsafe.growth):
         style.add_step_bar(figure, places[1:], unsafe.most_delay, "delay", results, **_BAR)
     style.add_title(figure, f"{results.title}, {unsafe.partition}", cut.title)
-    entries = [(style.NOT_INVARIANT, "not invariant")] if any(p.members.any() for p in unsafe.growth) else []
-    style.legend_below(figure, entries)
+    style.legend_below(figure, _entries(unsafe))
     return figure
+
+
+def _entries(unsafe):
+    growth = any(panel.members.any() for panel in unsafe.growth)
+    if not unsafe.is_inside:
+        return [(style.NOT_INVARIANT, "not invariant")] if growth else []
+    unbounded = any((panel.steps[panel.members] == _UNBOUNDED).any() for panel in unsafe.growth)
+    return [(_INVARIANT, "K")] + [(_FREE, "unbounded delay")] * unbounded
 
 
 def _draw_cells(axes, unsafe, panel, most):
@@ -122,7 +151,9 @@ def _draw_cells(axes, unsafe, panel, most):
     polygons = np.stack([edges[i][corners[:, :, i]] for i in range(3)], axis=-1)
     cmap, norm = style.step_colors(most)
     steps = panel.steps[tuple(cells.T)]
-    colors = np.where(steps[:, None] < 0, matplotlib.colors.to_rgba(style.NOT_INVARIANT), cmap(norm(steps)))
+    colors = cmap(norm(steps))
+    colors[steps == _ONE_COLOR] = matplotlib.colors.to_rgba(_INVARIANT if unsafe.is_inside else style.NOT_INVARIANT)
+    colors[steps == _UNBOUNDED] = matplotlib.colors.to_rgba(_FREE)
     colors[:, :3] *= np.array(_LIGHT)[dimensions][:, None]
     faces = Poly3DCollection(polygons, facecolors=colors, edgecolors=colors, linewidths=0.2, rasterized=True)
     axes.add_collection3d(faces)

@@ -121,11 +121,25 @@ class Cases(PlotCase):
             ((*layers, "--snapshots", "1,-2"), "expected whole numbers such as 1,14,29, found '1,-2' (--snapshots)"),
             ((*layers, "--partition", "a"), "no partition 'a', expected 'a|b' (--partition)"),
             (
-                ("maps", "out.h5", "-o", "a.png"),
-                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk', 'sweep', 'blind', 'silence' or 'require'",
+                ("xyz", "out.h5", "-o", "a.png"),
+                "unknown figure 'xyz', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk', 'sweep', 'blind', 'silence' or 'require'",
             ),
+            (("layer", "out.h5", "-o", "a.png"), "unknown figure 'layer', did you mean 'layers'?"),
+            (("Runs", "out.h5", "-o", "a.png"), "unknown figure 'Runs', did you mean 'run'?"),
         ):
             self.assert_plot_fails(2, message, *words)
+
+    def test_the_first_python_that_has_the_packages_draws(self):
+        """A virtual environment without them gives way to Debian's Python."""
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/python3").symlink_to("/usr/bin/python3")
+        self.write("pyvenv.cfg", "home = /usr/bin\ninclude-system-site-packages = false\n")
+        environment = {**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
+        options = {"cwd": self.folder, "env": environment, "capture_output": True, "text": True, "timeout": 100}
+        bare = subprocess.run(["/usr/bin/env", "python3", "-c", "import h5py"], **options)
+        self.assertIn("No module named 'h5py'", bare.stderr)
+        result = subprocess.run([ROOT / "scripts/plot", "layers"], **options)
+        self.assertEqual((result.returncode, result.stderr), (2, "plot: error: no FILE, see plot layers --help\n"))
 
     def test_says_the_name_that_it_was_called_by(self):
         (self.folder / "coordreq-plot").symlink_to(ROOT / "scripts/plot")
@@ -146,7 +160,7 @@ class Cases(PlotCase):
         for figure in ("actions", "layers", "unsafe3d", "run", "requirements", "coalition"):
             self.assertIn(f"    {figure}", text)
             self.assertIn("--output", self.help(figure))
-        self.assertIn("'coordreq-plot FIGURE --help' tells the options of a figure.", text)
+        self.assertIn("'coordreq-plot FIGURE --help' shows the options of a figure.", text)
 
     def test_numbers_are_exact(self):
         from plotting.values import evaluate

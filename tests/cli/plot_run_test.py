@@ -5,6 +5,7 @@ import unittest
 
 import numpy as np
 from plot_case import PlotCase, covered, example, labels, titles
+from plotting.style import new_figure
 from program import SPEC, spec_with
 
 # A heater that is on or off, and where it may be on.
@@ -79,7 +80,7 @@ class Cases(PlotCase):
         for words, message in (
             (("--run", "2"), "expected the number of one run, 0 to 1, found '2' (--run)"),
             (("--run", "0,1"), "expected the number of one run, 0 to 1, found '0,1' (--run)"),
-            (("--plane", "x1"), "expected two states as in x1,y1, found 'x1' (--plane)"),
+            (("--plane", "x1"), "expected two states such as x1,y1, found 'x1' (--plane)"),
             (("--plane", "x1,x3"), "'x3' is no state, expected 'x1' or 'x2' (--plane)"),
         ):
             self.assert_plot_fails(2, message, "run", "runs.h5", "-o", "a.png", *words)
@@ -147,7 +148,31 @@ class Cases(PlotCase):
         self.assertEqual(steps.lines[0].get_ydata()[0], ticks["never"])
         texts = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
         self.assertEqual(texts, ["p1, p2", "start", "end"])
+        # The signs have the colour of the curve.
+        colors = {handle.get_color() for handle in figure.axes[0].get_legend_handles_labels()[0]}
+        self.assertEqual(colors, {figure.axes[0].lines[0].get_color()})
         self.assertEqual(covered(figure), [])
+
+    def test_inputs_that_are_equal_are_all_seen(self):
+        self.simulated(example("crossing.json"), "--from", "p1=-9,v1=1,v2=1,p2=-6", "--steps", "6", "--policy", "adversarial")
+        _, figure = self.plotted("run", file="runs.h5")
+        widths = [line.get_linewidth() for line in figure.axes[-1].lines]
+        self.assertEqual(len(widths), 2)
+        self.assertGreater(widths[0], 2 * widths[1])
+
+    def test_the_numbers_of_steps_have_room(self):
+        from plotting.run import _step_ticks
+
+        for highest in (0, 1, 5, 12, 18, 57, 1000):
+            for has_never in (False, True):
+                axes = new_figure(None, (6, 4)).add_subplot()
+                never = highest + max(1, math.ceil(highest / 8))
+                _step_ticks(axes, highest, never, has_never)
+                ticks = axes.get_yticks()
+                self.assertLessEqual(len(ticks), 9)
+                if len(ticks) > 1:
+                    low, high = axes.get_ylim()
+                    self.assertGreater(min(np.diff(ticks)), (high - low) / 14, (highest, has_never))
 
     def test_a_run_without_coordination_fills_its_picture(self):
         self.simulated(HEATER, "--from", "T=19,h=1", "--steps", "9")

@@ -336,9 +336,34 @@ class Cases(PlotCase):
         self.assertEqual(boundaries[-1], 0)
         self.assertEqual(legend(figure), ["not safe", "safe, not invariant"])
 
+    def test_risk_below_all_levels_has_a_colour_of_its_own(self):
+        self.analyzed(example("crossing.json", network={"loss": 1e-13}, risk={"horizon": 10}))
+        _, figure = self.plotted("risk", "--slice", "v1=1,v2=1", "--mode", "up")
+        image = figure.axes[0].images[1]
+        lowest = image.norm.boundaries[0]
+        self.assertEqual(lowest, -12)
+        self.assertLess(image.get_array().min(), lowest)
+        below, first = (image.cmap(image.norm(power)) for power in (lowest - 0.5, lowest + 0.5))
+        self.assertNotEqual(below, first)
+        self.assertEqual(figure.axes[-1]._colorbar.extend, "min")
+        # Where nothing lies below, the bar does not say that something does.
+        self.analyzed(example("crossing.json", network={"loss": 0.01}, risk={"horizon": 10}))
+        _, figure = self.plotted("risk", "--slice", "v1=1,v2=1", "--mode", "down")
+        self.assertEqual(figure.axes[-1]._colorbar.extend, "neither")
+
     def test_risk_names_what_is_missing(self):
         self.analyzed(SPEC)
         self.assert_plot_fails(3, "no /risk in the file: analyse with a \"risk\" (out.h5)", "risk", "out.h5", "-o", "a.png")
+
+    # blind
+
+    def test_blind_names_a_class_that_sees_nothing(self):
+        agents = [{"name": "a", "inputs": ["u"], "sees": []}, {"name": "b", "inputs": ["v"], "sees": ["y"]}]
+        self.analyzed(spec_with(agents=agents))
+        message = "'a' sees no state: its table has no map; expected a class that sees one (--class)"
+        self.assert_plot_fails(2, message, "blind", "out.h5", "-o", "a.png")
+        data, _ = self.plotted("blind", "--class", "b")
+        self.assertEqual([axis.name for axis in data.table.cut.axes], ["y"])
 
     # sweep
 

@@ -4,8 +4,8 @@ import itertools
 import unittest
 
 import numpy as np
-from plot_case import PlotCase, drawn, example, labels, titles
-from program import SPEC
+from plot_case import PlotCase, drawn, example, labels, legend, titles
+from program import SPEC, spec_with
 
 
 class Cases(PlotCase):
@@ -69,6 +69,27 @@ class Cases(PlotCase):
                 others = [d for d in range(3) if d != dimension]
                 expected = set(itertools.product(*((cell[d], cell[d] + 1) for d in others)))
                 self.assertEqual({tuple(corner) for corner in quad[:, others]}, expected)
+
+    def test_unsafe3d_shows_k_where_what_is_lost_lies_around_it(self):
+        states = [{"name": name, "lower": 0, "upper": 6, "step": 1, "outside": "unsafe"} for name in "xyz"]
+        equations = {"x": "x + u", "y": "y + v", "z": "z"}
+        band = "1 <= x <= 5 and 1 <= y <= 5 and 1 <= z <= 5"
+        dynamics = {"time": "discrete", "period": 1, "equations": equations}
+        self.analyzed(spec_with(states=states, dynamics=dynamics, safe=band))
+        data, figure = self.plotted("unsafe3d", "--delays", "1,2")
+        invariant, delay = self.stored("invariant") != 0, self.stored("delay")[0]
+        self.assertEqual(invariant.sum(), 5**3)
+        self.assert_arrays_equal(data.collision.members, invariant)
+        for panel, d in zip(data.growth, (1, 2)):
+            self.assert_arrays_equal(panel.members, delay >= d)
+        self.assertEqual(titles(figure), ["small, a|b", "K", "tolerates 1 step", "tolerates 2 steps"])
+        self.assertEqual(legend(figure), ["K", "unbounded delay"])
+        for axes, panel in zip(figure.axes, [data.collision, *data.growth]):
+            self.assertEqual(len(axes.collections[0].get_facecolor()), self.faces(panel.members, data.viewer))
+        # Of what lies at one side of the domain only, the surface is shown.
+        self.analyzed(spec_with(states=states, dynamics=dynamics, safe="x + y + z <= 14"))
+        _, figure = self.plotted("unsafe3d", "--delays", "1")
+        self.assertEqual(titles(figure)[1], "outside K")
 
     def test_unsafe3d_needs_three_states(self):
         self.analyzed(SPEC)
