@@ -178,8 +178,21 @@ void spread(const uint64_t* bits, Level* lanes, size_t n) {
   }
 }
 
-/// One bit of each lane, lanes being all ones or 0.
-inline __attribute__((always_inline)) uint64_t packed(const uint8_t* lanes, size_t count) {
+/// One bit of each lane, lanes being all ones or 0. @pre unchecked: they are those of one vector
+inline __attribute__((always_inline)) uint64_t packed(const uint8_t* lanes, [[maybe_unused]] size_t count) {
+#if (COORDREQ_VECTOR_BYTES == 64 && defined(__AVX512BW__)) || \
+    (COORDREQ_VECTOR_BYTES == 32 && defined(__AVX2__)) || (COORDREQ_VECTOR_BYTES == 16 && defined(__SSE2__))
+  typedef char Bytes __attribute__((vector_size(COORDREQ_VECTOR_BYTES)));
+  Bytes bytes;
+  __builtin_memcpy(&bytes, lanes, sizeof(bytes));
+#if COORDREQ_VECTOR_BYTES == 64
+  return __builtin_ia32_cvtb2mask512(bytes);
+#elif COORDREQ_VECTOR_BYTES == 32
+  return static_cast<uint32_t>(__builtin_ia32_pmovmskb256(bytes));
+#else
+  return static_cast<uint32_t>(__builtin_ia32_pmovmskb128(bytes));
+#endif
+#else
   uint64_t bits = 0;
   for (size_t i = 0; i < count; i += 8) {
     uint64_t eight = 0;
@@ -188,6 +201,7 @@ inline __attribute__((always_inline)) uint64_t packed(const uint8_t* lanes, size
     bits |= ((eight & 0x8040201008040201U) * 0x0101010101010101U >> 56) << i;
   }
   return bits;
+#endif
 }
 
 template <class Level>

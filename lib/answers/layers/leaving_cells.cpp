@@ -8,6 +8,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/independent_actions.hpp"
+#include "answers/layers/outward_runs.hpp"
 #include "answers/layers/safe_sides.hpp"
 #include "base/index.hpp"
 #include "engine/find_levels.hpp"
@@ -17,6 +18,23 @@
 
 namespace coordreq {
 namespace {
+
+/// ids = the numbers of the slices of a row under a joint input.
+void find_slices(const RowEngine& engine, const RowPlace& place, std::int64_t u,
+                 std::vector<std::uint32_t>& ids) {
+  const InputSpace& inputs = engine.abstraction().inputs;
+  ids.clear();
+  for (const RowSlices& slices : engine.slices()) {
+    std::int64_t position = slices.base(place);
+    for (const std::int32_t j : slices.inputs)
+      position += inputs.index(u, at(j)) * slices.input_stride[at(j)];
+    ids.push_back(slices.number(position));
+  }
+}
+
+void remove(ConstRow cells, MutableRow set) {
+  for (std::size_t w = 0; w < set.size(); ++w) set[w] &= ~cells[w];
+}
 
 /// Looks for joint inputs of C(x) that leave through a `safe` side, for a row of cells of Z_F at once. There
 /// C(x) = IND_C(x), see count_leaving_cells(). One object a thread.
@@ -34,96 +52,81 @@ class LeavingRows {
         posts_(engine_, levels),
         asked_(engine_.row_words()),
         near_(engine_.row_words()),
-        leaving_(engine_.row_words()),
-        members_(engine_.row_words()) {
-    std::size_t parts = 0;
-    for (std::size_t side = 0; side < sides.size(); ++side) {
-      first_part_.push_back(parts);
-      parts += sides.parts(side);
-    }
-    is_known_.resize(parts);
-    by_part_.resize(parts * engine_.row_words());
-  }
+        leaving_(engine_.row_words()) {}
 
   /// Takes the cells out of the row from which some joint input of C(x) leaves.
-  void take_out(const RowPlace& place, MutableRow row) {
+  /// @param outward takes the cells, of those asked about, with the outward joint input in C(x)
+  void take_out(const RowPlace& place, MutableRow row, MutableRow outward) {
     std::copy(row.begin(), row.end(), asked_.begin());
     if (context_.over) remove(context_.over->row(place.row), asked_);
+    const bool full = is_full(place.row);
+    members_of_.clear();
+    if (full) {
+      std::copy(asked_.begin(), asked_.end(), outward.begin());
+    } else {
+      enter(place);
+      keep_members(place, sides_.outward(), asked_, outward);
+    }
     sides_.find_near(place, asked_, near_);
     if (!any_set(near_)) return;
     ++rows_;
-    if (!is_full(place.row)) keep_admissible(place);
+    if (!full) keep_admissible(place, outward);
     remove(near_, row);
   }
 
-  /// Rows with cells near a side, and rows of posts that were read for them.
+  /// Rows with cells near a side, and rows of posts that were read.
   [[nodiscard]] std::int64_t rows() const { return rows_; }
   [[nodiscard]] std::int64_t reads() const { return reads_; }
 
  private:
-  static void remove(ConstRow cells, MutableRow set) {
-    for (std::size_t w = 0; w < set.size(); ++w) set[w] &= ~cells[w];
-  }
-
   /// Every joint input is in C(x), at all x of K in the row.
   [[nodiscard]] bool is_full(std::int64_t row) const {
     const RowSymmetry* const symmetry = projections_.equal_work().symmetry;
     return projections_.is_full(symmetry == nullptr ? row : symmetry->canonical_of(row));
   }
 
-  /// Keeps of near_ the cells from which a joint input of C(x) leaves.
-  void keep_admissible(const RowPlace& place) {
-    std::fill(is_known_.begin(), is_known_.end(), 0);
-    members_of_.clear();
+  void enter(const RowPlace& place) {
     const std::int64_t unit = place.row / engine_.unit_rows();
     if (unit != unit_) posts_.enter();
     unit_ = unit;
+  }
+
+  /// Keeps of near_ the cells from which a joint input of C(x) leaves.
+  void keep_admissible(const RowPlace& place, ConstRow outward) {
     asked_ = near_;
-    std::int64_t u = 0;
-    const std::int64_t all = context_.abstraction->inputs.count();
-    for (; u < all && any_set(asked_); ++u) {
-      if (find_leaving(place, u)) remove(admissible(place, u), asked_);
+    sides_.find_leaving_outward(place, asked_, leaving_);
+    for (std::size_t w = 0; w < asked_.size(); ++w) asked_[w] &= ~(leaving_[w] & outward[w]);
+    for (std::size_t side = 0; side < sides_.size() && any_set(asked_); ++side) {
+      for (std::size_t part = sides_.parts(side); part-- > 0 && any_set(asked_);) {
+        sides_.find_leaving(side, part, place, asked_, leaving_);
+        if (!any_set(leaving_)) continue;
+        sides_.for_each_input(side, part, [&](std::int64_t u) {
+          keep_members(place, u, leaving_, members_);
+          remove(members_, asked_);
+          remove(members_, leaving_);
+          return any_set(leaving_);
+        });
+      }
     }
     remove(asked_, near_);
   }
 
-  /// leaving_ = the cells asked about from which joint input u, if it is allowed there, leaves. @returns
-  /// whether there are some
-  bool find_leaving(const RowPlace& place, std::int64_t u) {
-    std::fill(leaving_.begin(), leaving_.end(), 0);
-    for (std::size_t side = 0; side < sides_.size(); ++side) {
-      const std::size_t part = sides_.part_of(side, u), number = first_part_[side] + part;
-      const MutableRow cells(by_part_.data() + number * near_.size(), near_.size());
-      if (is_known_[number] == 0) sides_.find_leaving(side, part, place, near_, cells);
-      is_known_[number] = 1;
-      for (std::size_t w = 0; w < leaving_.size(); ++w) leaving_[w] |= cells[w] & asked_[w];
-    }
-    if (const PairTable* const allow = context_.pairs.admissible(); allow != nullptr && any_set(leaving_)) {
+  /// result = these cells of the row, where u is in C(x).
+  void keep_members(const RowPlace& place, std::int64_t u, ConstRow cells, MutableRow result) {
+    std::copy(cells.begin(), cells.end(), result.begin());
+    if (const PairTable* const allow = context_.pairs.admissible(); allow != nullptr) {
       const ConstRow allowed = allow->row(place.row, u);
-      for (std::size_t w = 0; w < leaving_.size(); ++w) leaving_[w] &= allowed[w];
+      for (std::size_t w = 0; w < result.size(); ++w) result[w] &= allowed[w];
     }
-    return any_set(leaving_);
-  }
-
-  /// The cells of leaving_ with u in C(x).
-  ConstRow admissible(const RowPlace& place, std::int64_t u) {
-    std::copy(leaving_.begin(), leaving_.end(), members_.begin());
-    if (controller_.synthesis == Synthesis::maximal) {
+    if (controller_.synthesis == Synthesis::maximal && any_set(result)) {
       const std::vector<Word>& kept = staying(place, u);
-      for (std::size_t w = 0; w < members_.size(); ++w) members_[w] &= kept[w];
+      for (std::size_t w = 0; w < result.size(); ++w) result[w] &= kept[w];
     }
-    return members_;
   }
 
   /// The cells of the row whose post under u lies in K, found once for all joint inputs with the same posts.
   const std::vector<Word>& staying(const RowPlace& place, std::int64_t u) {
-    ids_.clear();
-    for (const RowSlices& slices : engine_.slices()) {
-      std::int64_t position = slices.base(place);
-      for (const std::int32_t j : slices.inputs)
-        position += context_.abstraction->inputs.index(u, at(j)) * slices.input_stride[at(j)];
-      ids_.push_back(slices.number(position));
-    }
+    find_slices(engine_, place, u, ids_);
     const auto [found, is_new] = members_of_.try_emplace(ids_);
     if (!is_new) return found->second;
     ++reads_;
@@ -142,10 +145,7 @@ class LeavingRows {
   std::vector<Word> asked_;
   std::vector<Word> near_;
   std::vector<Word> leaving_;
-  std::vector<Word> members_;
-  std::vector<std::size_t> first_part_;  ///< [side] number of its first part among those of all sides
-  std::vector<std::uint8_t> is_known_;   ///< [part] whether its leaving cells are known in this row
-  std::vector<Word> by_part_;            ///< [part * words] these cells
+  std::vector<Word> members_ = std::vector<Word>(near_.size());
   std::map<std::vector<std::uint32_t>, std::vector<Word>> members_of_;  ///< by the numbers of the slices
   std::vector<std::uint32_t> ids_;
   std::int64_t unit_ = -1;  ///< that the reader was entered for
@@ -154,16 +154,17 @@ class LeavingRows {
 };
 
 /// Takes the cells out from which some joint input leaves, in the rows owned.
-void take_out_leaving(const Answers& answers, const Projections& projections, ThreadTeam& team,
-                      CellSet& cells, LeavingCounts& counts) {
+/// @param outward takes the cells with the outward joint input in C(x)
+void take_out_leaving(const Answers& answers, const Projections& projections, const SafeSides& sides,
+                      ThreadTeam& team, CellSet& cells, CellSet& outward, LeavingCounts& counts) {
   const RowEngine& engine = *answers.context.engine;
-  const SafeSides sides(answers.context, cells, team);
   answers.get<GoingOn>().controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<LeavingRows<Level>> workers;
     for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
     for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        if (any_set(cells.row(place.row))) workers[at(worker)].take_out(place, cells.row(place.row));
+        if (any_set(cells.row(place.row)))
+          workers[at(worker)].take_out(place, cells.row(place.row), outward.row(place.row));
       }
     });
     for (const LeavingRows<Level>& worker : workers) {
@@ -201,14 +202,20 @@ LeavingCounts count_leaving_cells(const Answers& answers, const Projections& pro
     return sum_of_all(engine.share(), set.count(own.begin, own.end));
   };
   LeavingCounts counts;
-  CellSet cells = layers.layers_of.top_cells(team);
+  const CellSet all = layers.layers_of.top_cells(team);
   const std::int64_t unbounded = layers.sizes.back();
-  take_out_leaving(answers, projections, team, cells, counts);
+  CellSet cells = all;
+  const SafeSides sides(context, team);
+  {
+    CellSet outward(engine.rows(), engine.row_length());
+    take_out_leaving(answers, projections, sides, team, cells, outward, counts);
+    counts.cells = unbounded - count(cells);
+    // Where no joint input leaves, or nothing is left, there is nothing to spread.
+    if (counts.cells > 0 && counts.cells < unbounded - context.over_cells)
+      counts.cells += sum_of_all(engine.share(), take_out_runs(context, sides, all, outward, team, cells));
+  }
   for (std::int64_t* rows : {&counts.rows_near, &counts.rows_read}) *rows = sum_of_all(engine.share(), *rows);
-  const std::int64_t staying = count(cells);
-  counts.cells = unbounded - staying;
-  // Where no joint input leaves, or nothing is left, there is nothing to spread.
-  if (counts.cells == 0 || staying == context.over_cells) return counts;
+  if (counts.cells == 0 || counts.cells == unbounded - context.over_cells) return counts;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
     return std::make_unique<IndependentActions<Level>>(projections, invariant, team.size(),

@@ -1,0 +1,111 @@
+#include "answers/layers/outward_runs.hpp"
+
+#include <bit>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "base/index.hpp"
+
+namespace coordreq {
+namespace {
+
+/// A round that takes out less than this part of what is left is the last.
+constexpr std::int64_t kLeastPart = 8;
+
+/// Where the cells of a row go by the outward joint input: one cell of the post of each.
+class OutwardCells {
+ public:
+  struct Target {
+    std::int64_t row = 0;
+    std::int64_t offset = 0;  ///< along it
+  };
+
+  OutwardCells(const RowEngine& engine, const SafeSides& sides, std::int64_t u)
+      : engine_(engine), sides_(sides) {
+    const InputSpace& inputs = engine.abstraction().inputs;
+    for (std::size_t i = 0; i < engine.tables(); ++i) {
+      const RowSlices& slices = engine.slices()[i];
+      inputs_.push_back(0);
+      for (const std::int32_t j : slices.inputs)
+        inputs_.back() += inputs.index(u, at(j)) * slices.input_stride[at(j)];
+    }
+  }
+
+  /// Nothing if the cells of the row do not all go on alike.
+  [[nodiscard]] std::optional<Target> of(const RowPlace& place) const {
+    Target target;
+    for (std::size_t i = 0; i < engine_.tables(); ++i) {
+      const RowSlices& slices = engine_.slices()[i];
+      const std::vector<RowSegment>& segments = slices.slices[slices.number(slices.base(place) + inputs_[i])];
+      const bool is_across = i < engine_.across();
+      if (segments.size() != 1 ||
+          segments.front().kind != (is_across ? RowSegment::Kind::fixed : RowSegment::Kind::shifted))
+        return std::nullopt;
+      const IndexRange range = segments.front().range;
+      const std::int64_t end = sides_.is_below(i) ? range.first : range.last;
+      const GridDimension& dimension = engine_.grid()[i];
+      if (is_across) {
+        target.row += end % dimension.count * engine_.grid().row_stride(i);
+      } else {
+        target.offset = end;
+      }
+    }
+    return target;
+  }
+
+ private:
+  const RowEngine& engine_;
+  const SafeSides& sides_;
+  std::vector<std::int64_t> inputs_;  ///< [table] what the joint input adds to a position
+};
+
+/// Bits 64 w + offset, ..., 64 w + offset + 63 of a row of bits that is a function of its words.
+template <class WordOf>
+Word shifted_word(std::int64_t w, std::int64_t offset, std::int64_t words, const WordOf& word_of) {
+  const std::int64_t begin = w * CellSet::kWordBits + offset;
+  const std::int64_t first = begin >= 0 ? begin / CellSet::kWordBits : -((63 - begin) / CellSet::kWordBits);
+  const std::int64_t shift = begin - first * CellSet::kWordBits;
+  const auto word = [&](std::int64_t k) { return k >= 0 && k < words ? word_of(at(k)) : Word{0}; };
+  return shift == 0 ? word(first) : word(first) >> shift | word(first + 1) << (CellSet::kWordBits - shift);
+}
+
+}  // namespace
+
+std::int64_t take_out_runs(const AnalysisContext& context, const SafeSides& sides, const CellSet& all,
+                           const CellSet& outward, ThreadTeam& team, CellSet& left) {
+  const RowEngine& engine = *context.engine;
+  if (!engine.posts().is_cut() || engine.along() != 1) return 0;
+  const OutwardCells cells(engine, sides, sides.outward());
+  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  std::int64_t rest = left.count(own.begin, own.end), total = 0;
+  for (bool goes_on = true; goes_on;) {
+    const CellSet before = left;
+    std::vector<std::int64_t> taken(at(std::int64_t{team.size()}), 0);
+    for_each_own_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
+      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
+        const MutableRow row = left.row(place.row);
+        if (!any_set(row)) continue;
+        const std::optional<OutwardCells::Target> target = cells.of(place);
+        if (!target) continue;
+        const ConstRow all_there = all.row(target->row), left_there = before.row(target->row);
+        const ConstRow may = outward.row(place.row);
+        for (std::size_t w = 0; w < row.size(); ++w) {
+          if ((row[w] & may[w]) == 0) continue;
+          const Word out = shifted_word(static_cast<std::int64_t>(w), target->offset, std::ssize(row),
+                                        [&](std::size_t k) { return all_there[k] & ~left_there[k]; });
+          const Word found = out & row[w] & may[w];
+          row[w] &= ~found;
+          taken[at(worker)] += std::popcount(found);
+        }
+      }
+    });
+    const std::int64_t round = std::accumulate(taken.begin(), taken.end(), std::int64_t{0});
+    total += round;
+    rest -= round;
+    goes_on = round > 0 && rest > 0 && round >= rest / kLeastPart;
+  }
+  return total;
+}
+
+}  // namespace coordreq
