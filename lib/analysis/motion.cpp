@@ -19,8 +19,8 @@
 namespace coordreq {
 namespace {
 
-constexpr std::size_t kMostCorners = 256;
-constexpr std::size_t kBetween = 64;
+constexpr std::size_t kMostCorners = 128;
+constexpr std::size_t kBetween = 16;
 constexpr double kMotionTolerance = 1e-9;
 
 /// Ends of what each slot can be.

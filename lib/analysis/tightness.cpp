@@ -22,7 +22,7 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kPairs = 32;
+constexpr std::int64_t kPairs = 12;
 /// Fractions of whose multiples no two are near one another: the golden ratio and the root of 2.
 constexpr double kCellStride = 0.6180339887498949;
 constexpr double kInputStride = 0.4142135623730951;

@@ -21,9 +21,9 @@ namespace coordreq {
 namespace {
 
 /// Reads of tables and of sets, of all pairs together: a share of the cells, so that the search stays small
-/// beside the analysis.
-constexpr std::int64_t kFewestReads = 100'000, kMostReads = 2'000'000;
-constexpr std::int64_t kCellsOfRead = 2;
+/// beside the analysis; on small grids a few for each cell.
+constexpr std::int64_t kFewestReads = 20'000, kManyReads = 100'000, kMostReads = 2'000'000;
+constexpr std::int64_t kCellsOfRead = 2, kReadsOfCell = 3;
 /// Solutions that are followed, and the sub-steps of each.
 constexpr std::int64_t kMostFollowed = 500;
 constexpr std::int64_t kMostSubSteps = 64;
@@ -72,7 +72,8 @@ class PassageSearch {
     const std::int64_t all = grid_.points(), choices = abstraction_.inputs.count();
     const std::int64_t far = step_through(all), far_input = step_through(choices);
     std::int64_t number = 0, u = 0;
-    const std::int64_t most_reads = std::clamp(all / kCellsOfRead, kFewestReads, kMostReads);
+    const std::int64_t fewest = std::clamp(all * kReadsOfCell, kFewestReads, kManyReads);
+    const std::int64_t most_reads = std::clamp(all / kCellsOfRead, fewest, kMostReads);
     std::optional<Passage> first;
     for (std::int64_t k = 0; k < all && work_.reads < most_reads && work_.followed < kMostFollowed; ++k) {
       const std::int64_t x = place_of(number);

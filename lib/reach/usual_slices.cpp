@@ -28,7 +28,10 @@ class RowDraw {
         state_(state),
         along_(along),
         evaluator_(spec.dynamics.equations[state]),
-        slots_(spec.slot_count()) {
+        slots_(spec.slot_count()),
+        period_(nearest_double(spec.dynamics.period)) {
+    for (const StateSpec& one : spec.states)
+      scales_.push_back({nearest_double(one.grid.first), nearest_double(one.grid.step)});
     begin_ = below(spec.states[along].grid.count - cells() + 1);
     for (std::size_t i = 0; i < spec.states.size(); ++i) place(i, spec.states[i].grid.count / 2);
     for (std::size_t i = 0; i < spec.inputs.size(); ++i)
@@ -60,10 +63,9 @@ class RowDraw {
   }
 
   void place(std::size_t i, std::int64_t index) {
-    const GridSpec& grid = spec_.states[i].grid;
-    const double step = nearest_double(grid.step);
-    const double centre = nearest_double(grid.first) + step * static_cast<double>(index);
-    const double radius = spec_.states[i].discrete ? 0 : step / 2;
+    const Scale& scale = scales_[i];
+    const double centre = scale.first + scale.step * static_cast<double>(index);
+    const double radius = spec_.states[i].discrete ? 0 : scale.step / 2;
     slots_[spec_.state_slot(i)] = Interval(centre - radius, centre + radius);
   }
 
@@ -71,17 +73,23 @@ class RowDraw {
   void add_post(std::int64_t from, Row& row) {
     Interval next = evaluator_.number(slots_);
     if (spec_.dynamics.time == Time::continuous) {
-      const double period = nearest_double(spec_.dynamics.period);
       const Interval& own = slots_[spec_.state_slot(state_)];
-      next = Interval(own.lower + period * next.lower, own.upper + period * next.upper);
+      next = Interval(own.lower + period_ * next.lower, own.upper + period_ * next.upper);
     }
-    const GridSpec& grid = spec_.states[state_].grid;
+    const Scale& scale = scales_[state_];
+    const auto count = static_cast<double>(spec_.states[state_].grid.count);
     for (const double end : {next.lower, next.upper}) {
-      const double index = std::floor((end - nearest_double(grid.first)) / nearest_double(grid.step) + 0.5);
-      const double inside = std::isnan(index) ? -1 : std::clamp(index, -1.0, static_cast<double>(grid.count));
+      const double index = std::floor((end - scale.first) / scale.step + 0.5);
+      const double inside = std::isnan(index) ? -1 : std::clamp(index, -1.0, count);
       row.push_back(static_cast<std::int32_t>(static_cast<std::int64_t>(inside) - from));
     }
   }
+
+  /// Of a grid: its first point and its step, which are worked out from exact numbers only once.
+  struct Scale {
+    double first;
+    double step;
+  };
 
   const SystemSpec& spec_;
   const TableShape& shape_;
@@ -89,6 +97,8 @@ class RowDraw {
   std::size_t along_;
   Evaluator<Interval> evaluator_;
   std::vector<Interval> slots_;
+  double period_;
+  std::vector<Scale> scales_;  ///< [state]
   std::mt19937_64 random_{20180410};
   std::int64_t begin_ = 0;  ///< of the stretch, the same in all rows
 };

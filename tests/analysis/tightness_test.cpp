@@ -37,7 +37,7 @@ TEST(Tightness, ExactPostsHaveNone) {
 TEST(Tightness, WideEnclosuresAreToldWithWhatHelps) {
   const Json summary = summary_of("2*(1 - x^2)*y - x + u", "1", "0");
   const Json& found = summary["tightness"];
-  EXPECT_EQ(found["posts"], 50);
+  EXPECT_EQ(found["posts"], 24);
   EXPECT_GT(found["p99"], 3);
   EXPECT_GE(found["most"], found["p99"]);
   EXPECT_GT(found["mean"], found["share"]);
