@@ -38,6 +38,15 @@ std::string rate_text(double rate, const ProblemSpec& spec) {
                      probability_text(rate / nearest_double(spec.dynamics.period)), unit);
 }
 
+/// Where the network is at the first step, and the risk there.
+std::string start_text(const Json& start, const ProblemSpec& spec) {
+  const std::string where = spec.risk->is_drawn
+                                ? "  With the mode of the first step drawn"
+                                : "  With the network first in mode " + text_of(start["name"]);
+  return fmt::format("{}: worst {}, mean {}.\n", where, number_or_dash(start["worst"]),
+                     number_or_dash(start["mean"]));
+}
+
 const char* coordinated_text(const ProblemSpec& spec) {
   return spec.risk->is_safest ? "connected agents choose what is safest"
                               : "connected agents choose anything that the controller allows";
@@ -64,10 +73,10 @@ std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
   const std::string more = modes.size() <= kMostModes
                                ? ""
                                : fmt::format("  ... and {} more modes\n", grouped(modes.size() - kMostModes));
-  return fmt::format("\nrisk within {}: {}\n{}{}  Later it grows by at most {}.\n",
+  return fmt::format("\nrisk within {}: {}\n{}{}{}  Later it grows by at most {}.\n",
                      duration(entry["horizon"].get<std::int64_t>(), nearest_double(spec.dynamics.period),
                               spec.dynamics.unit),
-                     coordinated_text(spec), table.text(), more,
+                     coordinated_text(spec), table.text(), more, start_text(entry["start"], spec),
                      rate_text(entry["rate"].get<double>(), spec));
 }
 
@@ -76,11 +85,11 @@ bool has_risk(const ProblemSpec& spec) {
 }
 
 std::string mean_risk(const Json& summary) {
-  return number_or_dash(summary["risk"]["modes"].front()["mean"]);
+  return number_or_dash(summary["risk"]["start"]["mean"]);
 }
 
 std::string worst_risk(const Json& summary) {
-  return number_or_dash(summary["risk"]["modes"].front()["worst"]);
+  return number_or_dash(summary["risk"]["start"]["worst"]);
 }
 
 std::string risk_of_file(const Json& info) {

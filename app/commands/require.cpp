@@ -78,10 +78,11 @@ void set_limit(const RequireOptions& options, const ResultsReader& results, Tole
   const auto [limit, text] = limit_of(options);
   const RequirementTraits& kind = traits(limit.kind);
   question.kind = limit.kind;
-  if (!results.has(path_of(limit.kind))) {
-    throw UsageError(fmt::format("the results have no {}, expected those of a spec with the key '{}'",
-                                 path_of(limit.kind), kind.needs),
-                     limit.name);
+  const std::string path = dataset_of(limit.kind, results.spec()).path;
+  if (!results.has(path)) {
+    throw UsageError(
+        fmt::format("the results have no {}, expected those of a spec with the key '{}'", path, kind.needs),
+        limit.name);
   }
   if (kind.is_probability) {
     question.risk = risk_of(text, limit.name);

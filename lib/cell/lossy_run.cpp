@@ -43,7 +43,8 @@ RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run
   RandomStream losses(options_.seed, run, RandomStream::Purpose::losses);
   const std::vector<LossyNetwork::Mode>& modes = problem_.network->modes();
   State state = first_state(std::move(measured), draw_nature(disturbances));
-  std::size_t mode = 0;
+  std::size_t mode = problem_.spec->risk ? problem_.spec->risk->start : 0;
+  if (problem_.spec->risk && problem_.spec->risk->is_drawn) mode = problem_.network->draw(mode, losses);
   RunTrace trace;
   const auto add = [&] { add_sample(state, trace).countdown = modes[mode].is_connected ? 0 : 1; };
   const auto end = [&trace](Outcome outcome) {

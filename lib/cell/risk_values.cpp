@@ -10,6 +10,7 @@
 #include "answers/risk/risk_levels.hpp"
 #include "numeric/outward.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 namespace {
@@ -52,7 +53,9 @@ RiskValues read_risk_values(const ResultsReader& results) {
 
 double risk_of_runs(const ResultsReader& results, std::int64_t cell, std::int64_t steps) {
   const RiskSpec& risk = *results.spec().risk;
-  const float own = results.reals(results.field(paths::kRisk), 0, one_cell(results.grid(), cell)).front();
+  const RequirementDataset start = dataset_of(RequirementKind::max_risk, results.spec());
+  const float own =
+      results.reals(results.field(start.path), start.entry, one_cell(results.grid(), cell)).front();
   const std::int64_t added = risk.is_safest ? steps : std::max<std::int64_t>(0, steps - risk.horizon);
   const double more = outward::multiply_up(results.number(paths::kRisk, "rate"), static_cast<double>(added));
   return std::min(1.0, outward::add_up(double{own}, more));

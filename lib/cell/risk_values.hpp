@@ -14,9 +14,9 @@ namespace coordreq {
 using RiskValues = std::vector<std::map<std::string, std::vector<std::int32_t>>>;
 [[nodiscard]] RiskValues read_risk_values(const ResultsReader& results);
 
-/// An upper bound of the probability that a run of so many steps from a cell, with the network in its first
-/// mode, leaves K: the risk, and the rate for each step beyond the horizon; of agents without a clock, who
-/// are to be safest, for each step.
+/// An upper bound of the probability that a run of so many steps from a cell, where the network is at the
+/// first step as the spec says, leaves K: the risk, and the rate for each step beyond the horizon; of agents
+/// without a clock, who are to be safest, for each step.
 [[nodiscard]] double risk_of_runs(const ResultsReader& results, std::int64_t cell, std::int64_t steps);
 
 /// Memory of the values of a cell, in bytes.

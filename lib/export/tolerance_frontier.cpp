@@ -21,10 +21,10 @@ class Tolerated {
     holds_.assign(static_cast<std::size_t>(counts_[0] * counts_[1]), true);
     const CellTable table(results,
                           {.slices = question.given, .projections = {}, .partition = question.partition});
-    const std::string path = path_of(question.kind);
-    // Of a field over modes of the network the first column, that of the mode in which it begins.
+    const RequirementDataset asked = dataset_of(question.kind, results.spec());
     std::size_t column = 0;
-    while (table.columns()[column].field->path != path) ++column;
+    while (table.columns()[column].field->path != asked.path) ++column;
+    column += asked.entry;
     table.for_each_row([&](const std::vector<std::int64_t>& index, const std::vector<std::int32_t>& values) {
       if (keeps_limit(values[column])) return;
       const std::int64_t second = question.over.size() > 1 ? rank(1, index[question.over[1].state]) : 0;
@@ -83,13 +83,8 @@ class Tolerated {
 
 }  // namespace
 
-std::string path_of(RequirementKind kind) {
-  REQUIRES(kind != RequirementKind::invariant);
-  return "/" + traits(kind).value;
-}
-
 Tolerance find_tolerance(const ResultsReader& results, const ToleranceQuestion& question) {
-  REQUIRES(are_all_different(question) && results.has(path_of(question.kind)));
+  REQUIRES(are_all_different(question) && results.has(dataset_of(question.kind, results.spec()).path));
   const Tolerated tolerated(results, question);
   const std::vector<std::int64_t> reach = tolerated.reach();
   std::vector<FrontierCorner> corners;

@@ -28,9 +28,6 @@ struct ToleranceQuestion {
   std::vector<TableSelection::Slice> given;  ///< cells of other states; of those not named every value counts
 };
 
-/// Path of the field that requirements of a kind ask about. @pre not of `invariant`
-[[nodiscard]] std::string path_of(RequirementKind kind);
-
 /// Indices of the states asked about: in the cell of these and in all that are better in each state, the
 /// delay is as large as asked for, whatever the states are that were not given.
 using FrontierCorner = std::vector<std::int64_t>;
@@ -44,7 +41,7 @@ struct Tolerance {
   std::vector<std::pair<std::int64_t, std::int64_t>> intervals;
 };
 
-/// @pre the states of a question are all different; the results have path_of() the kind
+/// @pre the states of a question are all different; the results have the dataset of the kind
 [[nodiscard]] Tolerance find_tolerance(const ResultsReader& results, const ToleranceQuestion& question);
 /// The corners alone.
 [[nodiscard]] std::vector<FrontierCorner> tolerance_frontier(const ResultsReader& results,

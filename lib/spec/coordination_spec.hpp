@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -67,6 +68,8 @@ struct RiskSpec {
   std::int64_t horizon = 0;              ///< steps, at least 1; from "horizon_time" by ceil(time / period)
   std::optional<Rational> horizon_time;  ///< as written; `horizon` has its steps
   bool is_safest = false;  ///< agents who are all connected agree on the least risk; else on anything
+  std::size_t start = 0;   ///< the mode of the first step
+  bool is_drawn = false;   ///< the mode of the first step is drawn as one that follows `start`
 };
 
 }  // namespace coordreq

@@ -91,7 +91,7 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
       if (root.has("network")) spec.network = read_network(scope, root, spec.agents, spec.coordination);
     });
     const bool is_risk_known = errors.attempt([&] {
-      if (root.has("risk")) spec.risk = read_risk(scope, root, period);
+      if (root.has("risk")) spec.risk = read_risk(scope, root, period, spec.network);
     });
     errors.attempt([&] {
       if (!is_risk_known) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/requires.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
@@ -64,6 +65,14 @@ const std::vector<RequirementTraits>& requirement_kinds() {
 
 const RequirementTraits& traits(RequirementKind kind) {
   return requirement_kinds()[static_cast<std::size_t>(kind)];
+}
+
+RequirementDataset dataset_of(RequirementKind kind, const ProblemSpec& spec) {
+  REQUIRES(kind != RequirementKind::invariant);
+  const std::string path = "/" + traits(kind).value;
+  if (kind != RequirementKind::max_risk || !spec.risk) return {path};
+  if (spec.risk->is_drawn) return {path + "_drawn"};
+  return {path, spec.risk->start};
 }
 
 std::string requirement_kind_name(RequirementKind kind) {

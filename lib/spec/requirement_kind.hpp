@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,14 @@ struct RequirementTraits {
 /// By number of the kind.
 [[nodiscard]] const std::vector<RequirementTraits>& requirement_kinds();
 [[nodiscard]] const RequirementTraits& traits(RequirementKind kind);
+/// The dataset of a kind of requirement, and the entry of its leading axis that counts, if it has one that is
+/// not of partitions: of risks the mode of the first step, or that this mode is drawn.
+/// @pre not `invariant`
+struct RequirementDataset {
+  std::string path;
+  std::size_t entry = 0;
+};
+[[nodiscard]] RequirementDataset dataset_of(RequirementKind kind, const ProblemSpec& spec);
 /// @pre it is one
 [[nodiscard]] const RequirementTraits& requirement_traits(const std::string& key);
 

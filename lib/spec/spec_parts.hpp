@@ -35,7 +35,8 @@ namespace coordreq {
 [[nodiscard]] NetworkSpec read_network(const Scope& scope, const JsonDocument::Node& root,
                                        const std::vector<AgentSpec>& agents,
                                        const CoordinationSpec& coordination);
-[[nodiscard]] RiskSpec read_risk(const Scope& scope, const JsonDocument::Node& root, const Rational& period);
+[[nodiscard]] RiskSpec read_risk(const Scope& scope, const JsonDocument::Node& root, const Rational& period,
+                                 const std::optional<NetworkSpec>& network);
 [[nodiscard]] SilenceSpec read_silence(const Scope& scope, const JsonDocument::Node& root,
                                        const std::vector<AgentSpec>& agents);
 [[nodiscard]] std::vector<RequirementSpec> read_requirements(

@@ -38,6 +38,7 @@ TEST(DatasetNames, AreThoseOfTheDatasetsThatAreWritten) {
   for (const char* const addition :
        {"{}", R"({"goal": "x >= 2"})", R"({"network": {"delay": 2}})",
         R"({"network": {"loss": 0.1}, "risk": {"horizon": 2}})",
+        R"({"network": {"loss": 0.1}, "risk": {"horizon": 2, "start": "drawn"}})",
         R"({"coordination": {"horizon": 2, "convention": false}})",
         R"({"coordination": {"horizon_time": "4/2"}})",
         R"({"coordination": {"convention": true, "max_delay": null}})",
@@ -55,7 +56,7 @@ TEST(DatasetNames, AreThoseOfTheDatasetsThatAreWritten) {
     EXPECT_EQ(reserved, written(read_spec(text, "test"))) << addition;
     all.insert(reserved.begin(), reserved.end());
   }
-  EXPECT_EQ(all.size(), 42U);
+  EXPECT_EQ(all.size(), 44U);
 }
 
 }  // namespace

@@ -77,7 +77,72 @@ class Cases(Case):
         self.assertIn("\nnetwork loss: a step is lost with probability 0.1, 0.1 after a lost one\n", text)
         self.assertIn("\nrisk within 5 steps (5 s): connected agents choose what is safest\n", text)
         self.assertRegex(text, r"\n  up +0\.0119 +0\.0032[56] +0 +0 +0 +0 +3\n")
-        self.assertIn("\n  Later it grows by at most 0.00162 a step, 0.00162 per s.\n", text)
+        self.assertIn("\n  With the network first in mode up: worst 0.0119, mean 0.00326.\n"
+                      "  Later it grows by at most 0.00162 a step, 0.00162 per s.\n", text)
+
+    def test_start_that_is_drawn(self):
+        """The first step is lost as any other."""
+        drawn = {"horizon": 5, "start": "drawn"}
+        near = {"name": "near", "where": "0 <= d <= 1", "max_risk": 0.35}
+        self.assertTrue(self.results(brink(requirements=[near]))["requirements"][0]["holds"])
+        summary = self.results(brink(risk=drawn, requirements=[near]), code=1)
+        risk, _ = self.risks()
+        expected = 0.9 * risk[0].astype(float) + 0.1 * risk[1].astype(float)
+        with h5py.File(self.folder / "results.h5") as file:
+            stored = file["risk_drawn"][...]
+        self.assertEqual((stored.dtype, stored.shape), (np.float32, (1, 4)))
+        np.testing.assert_allclose(stored[0], expected, rtol=1e-6)
+        self.assertTrue((stored[0] >= expected * (1 - 1e-15)).all())
+        self.assertEqual(summary["risk"]["start"]["name"], "drawn")
+        self.assertEqual(summary["risk"]["start"]["worst"], float(stored.max()))
+        self.assertEqual(summary["requirements"][0]["greatest_risk"], float(stored[0, :2].max()))
+        text = self.run_program("analyze", "spec.json").stdout.decode()
+        self.assertIn("\n  With the mode of the first step drawn: worst 0.41, mean 0.304.\n", text)
+        found = json.loads(self.run_program("query", "results.h5", "--at", "d=2", "--json").stdout)
+        self.assertEqual(found["risk_drawn"], {"drawn": float(stored[0, 2])})
+        verified = self.run_program("verify", "results.h5", "--full")
+        self.assertEqual(verified.returncode, 0, verified.stdout)
+        with h5py.File(self.folder / "results.h5", "r+") as file:
+            file["risk_drawn"][0, 2] *= 0.999
+        verified = self.run_program("verify", "results.h5")
+        self.assertEqual(verified.returncode, 1, verified.stdout)
+        self.assertIn(b"where the first step is drawn, expected", verified.stdout)
+
+    def test_start_in_a_mode(self):
+        down = {"horizon": 5, "start": "down"}
+        limit = {"name": "far", "where": "d == 0", "max_risk": 0.35}
+        self.assertTrue(self.results(brink(requirements=[limit]))["requirements"][0]["holds"])
+        summary = self.results(brink(risk=down, requirements=[limit]), code=1)
+        risk, _ = self.risks()
+        self.assertEqual(summary["requirements"][0]["greatest_risk"], float(risk[1, 0]))
+        self.assertEqual(summary["risk"]["start"], summary["risk"]["modes"][1])
+        simulated = json.loads(self.run_program("simulate", "results.h5", "--lossy", "--from", "d=0", "--steps", "5",
+                                                "--runs", "2", "--json").stdout)
+        self.assertEqual(simulated["risk"], float(risk[1, 0]))
+
+    def test_retransmission(self):
+        """The bounded retransmission protocol: 16 chunks, each sent at most three times; a transmission and its
+        acknowledgement are lost with 0.02 and 0.01. Then the chance of failure is 1 - (1 - p^3)^16."""
+        p = 1 - 0.98 * 0.99
+        spec = brink(
+            name="brp", constants={"N": 16, "MAX": 2}, safe="true",
+            states=[{"name": "chunk", "lower": 1, "upper": "N + 1", "step": 1, "discrete": True, "outside": "unsafe"},
+                    {"name": "tries", "lower": 0, "upper": "MAX", "step": 1, "discrete": True, "outside": "unsafe"}],
+            inputs=[{"name": "u", "values": [0, 1]}, {"name": "v", "values": [0, 1]}],
+            agents=[{"name": "sender", "inputs": ["u"]}, {"name": "receiver", "inputs": ["v"]}],
+            dynamics={"time": "discrete", "period": 1,
+                      "equations": {"chunk": "if(u == v, min(chunk + 1, N + 1), chunk)",
+                                    "tries": "if(chunk > N or u == v, 0, tries + 1)"}},
+            network={"loss": "1 - 0.98*0.99"},
+            risk={"horizon": 48, "coordinated": "safest", "start": "drawn"},
+            requirements=[{"name": "start", "where": "chunk == 1 and tries == 0", "max_risk": 4.24e-4}])
+        found = self.results(spec)["requirements"][0]
+        self.assertAlmostEqual(found["greatest_risk"], 1 - (1 - p**3) ** 16, delta=1e-9)
+
+    def test_unknown_start(self):
+        self.write("spec.json", brink(risk={"horizon": 5, "start": "lost"}))
+        self.assert_fails(3, "expected 'connected', 'drawn' or a mode of the network ('up', 'down'), found 'lost' "
+                             "(/risk/start)", "analyze", "spec.json")
 
     def test_requirements(self):
         near = {"name": "near", "where": "0 <= d <= 1"}

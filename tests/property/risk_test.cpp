@@ -79,13 +79,16 @@ ProblemSpec draw_risky(int horizon, bool any) {
   spec["risk"]["horizon"] = horizon < 1 ? draw(1, 5) : horizon;
   const bool is_given = spec["controller"].value("synthesis", "maximal") == "given";
   if (!any && !is_given && draw(0, 1) == 0) spec["risk"]["coordinated"] = "safest";
+  if (draw(0, 1) == 0) spec["risk"]["start"] = draw(0, 1) == 0 ? "drawn" : "connected";
   return read_spec(spec.dump(), "random");
 }
 
-Rational stored(const Risk& risk, std::size_t mode, std::size_t x) {
-  const RiskRows& rows = risk.risks[mode];
+Rational stored(const RiskRows& rows, std::size_t x) {
   const auto cell = static_cast<std::int64_t>(x);
   return exact(double{risk_of(rows.row(cell / rows.row_length())[cell % rows.row_length()])});
+}
+Rational stored(const Risk& risk, std::size_t mode, std::size_t x) {
+  return stored(risk.risks[mode], x);
 }
 
 /// "Never below, 0 exactly where that is, never above 1, and at most 0.1 % + 1e-30 above it."
@@ -134,6 +137,13 @@ TEST(Risk, IsCloselyAboveTheExactOne) {
     RC_CLASSIFY(is_telling && !spec.risk->is_safest, "between 0 and 1, any");
     RC_CLASSIFY(is_telling && spec.risk->is_safest, "between 0 and 1, safest");
     expect_rate(risks, risk, safe.size(), spec.risk->is_safest);
+    const RiskAnswer& answer = fast.answers->get<RiskAnswer>();
+    RC_ASSERT(answer.drawn.has_value() == spec.risk->is_drawn);
+    for (std::size_t x = 0; x < safe.size(); ++x) {
+      const auto cell = static_cast<std::int64_t>(x);
+      expect_bound(stored(answer.start(*spec.risk), x),
+                   spec.risk->is_drawn ? risks.expected(expected, 0, cell) : expected[spec.risk->start][x]);
+    }
   }));
 }
 

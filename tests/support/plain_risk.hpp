@@ -22,6 +22,8 @@ class PlainRisk {
   [[nodiscard]] PlainRisks first() const;
   /// One more step.
   [[nodiscard]] PlainRisks next(const PlainRisks& risks, bool is_safest) const;
+  /// The risk at a cell before the mode that follows `mode` is drawn.
+  [[nodiscard]] Rational expected(const PlainRisks& risks, std::size_t mode, std::int64_t cell) const;
 
  private:
   struct Post {
@@ -33,8 +35,6 @@ class PlainRisk {
     Rational low;
     Rational high;
   };
-
-  [[nodiscard]] Rational expected(const PlainRisks& risks, std::size_t mode, std::int64_t cell) const;
 
   const PlainAnalysis& plain_;
   std::vector<std::vector<Post>> posts_;                 ///< [cell][joint input]

@@ -19,15 +19,15 @@ std::uint64_t count_members(const std::vector<std::uint8_t>& set) {
   return set.size() - static_cast<std::uint64_t>(std::count(set.begin(), set.end(), 0));
 }
 
-ClaimedValues::ClaimedValues(const Claims& claims, const RequirementSpec& asked)
+ClaimedValues::ClaimedValues(const Claims& claims, const ProblemSpec& spec, const RequirementSpec& asked)
     : safe_(claims.members("/safe")), invariant_(claims.members("/invariant")) {
   if (asked.kind == RequirementKind::invariant) return;
+  const RequirementDataset dataset = dataset_of(asked.kind, spec);
   if (asked.kind == RequirementKind::max_risk) {
-    risks_ = &claims.at("/risk").reals.front();
+    risks_ = &claims.at(dataset.path).reals[dataset.entry];
     return;
   }
-  values_ =
-      &claims.values("/" + traits(asked.kind).value, static_cast<std::size_t>(asked.partition.value_or(0)));
+  values_ = &claims.values(dataset.path, static_cast<std::size_t>(asked.partition.value_or(0)));
 }
 
 BitDifference compare_bits(const std::vector<std::uint8_t>& bytes, std::size_t cell,

@@ -21,7 +21,7 @@ namespace coordreq {
 class ClaimedValues {
  public:
   /// @pre unchecked: `claims` outlives this object.
-  ClaimedValues(const Claims& claims, const RequirementSpec& asked);
+  ClaimedValues(const Claims& claims, const ProblemSpec& spec, const RequirementSpec& asked);
 
   [[nodiscard]] std::int32_t operator()(std::size_t cell) const {
     if (values_ != nullptr) return (*values_)[cell];
@@ -34,7 +34,7 @@ class ClaimedValues {
   const std::vector<std::uint8_t>& safe_;
   const std::vector<std::uint8_t>& invariant_;
   const std::vector<std::int32_t>* values_ = nullptr;  ///< null: the delay of all agents together, or a risk
-  const std::vector<float>* risks_ = nullptr;          ///< in the first mode
+  const std::vector<float>* risks_ = nullptr;          ///< where the network starts
 };
 
 /// How the bits of a cell differ from those expected.

@@ -54,7 +54,7 @@ class RequirementChecker {
       : context_(context),
         asked_(context.spec->requirements[number]),
         claim_(claim),
-        value_of_(*context.claims, asked_),
+        value_of_(*context.claims, *context.spec, asked_),
         collision_time_(context.claims->values("/collision_time")),
         region_(*context.spec, asked_.where, *context.grid, context.claims->same_version, team),
         tally_("requirement " + asked_.name) {

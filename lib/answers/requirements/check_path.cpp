@@ -12,7 +12,7 @@ namespace coordreq {
 PathChecker::PathChecker(const CheckContext& context, const RequirementSpec& asked)
     : context_(context),
       asked_(asked),
-      value_of_(*context.claims, asked),
+      value_of_(*context.claims, *context.spec, asked),
       invariant_(context.claims->members("/invariant")),
       collision_time_(context.claims->values("/collision_time")),
       cell_(context) {

@@ -65,9 +65,9 @@ class Judge {
     const Goal* const goal = answers_.find<Goal>();
     if (goal != nullptr) result.nearness = &goal->nearness;
     if (requirement.kind == RequirementKind::max_risk) {
-      const Risk& risk = answers_.get<RiskAnswer>().risk;
-      result.risks = &risk.risks.front();
-      result.steps = greatest_risk_bits(requirement, risk.rate);
+      const RiskAnswer& risk = answers_.get<RiskAnswer>();
+      result.risks = &risk.start(*context_.spec.risk);
+      result.steps = greatest_risk_bits(requirement, risk.risk.rate);
     }
     if (!requirement.partition) return result;
     const auto p = static_cast<std::size_t>(*requirement.partition);

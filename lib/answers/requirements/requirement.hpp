@@ -20,7 +20,7 @@ struct CellRequirement {
   /// in K.
   const DelayLayers* layers = nullptr;
   const LevelMap* nearness = nullptr;  ///< for requirements about arrivals
-  const RiskRows* risks = nullptr;  ///< for requirements about risks: those of the first mode of the network
+  const RiskRows* risks = nullptr;     ///< for requirements about risks: where the network starts
   /// The limit; for `max_risk` as bits, like the values.
   std::int64_t steps = 0;
 

@@ -127,6 +127,11 @@ void find_risks(Answers& answers, const StageWork& work) {
   }
   for (const RiskRows& risks : result.risks)
     answer.figures.push_back(risk_figures(risks, invariant, share, work.team));
+  if (context.spec.risk->is_drawn) {
+    const ExpectedRisks expected(*context.spec.network);
+    answer.drawn = drawn_risks(expected.different[expected.of_mode.front()], result.risks, share, work.team);
+    answer.drawn_figures = risk_figures(*answer.drawn, invariant, share, work.team);
+  }
   if (work.store == nullptr) return;
   work.store->finish([&answers](Archive& archive) {
     const Risk& risk = answers.get<RiskAnswer>().risk;
@@ -141,15 +146,20 @@ Json number_or_null(const std::optional<Number>& number) {
   return number ? Json(double{*number}) : Json();
 }
 
+Json figures_json(const std::string& name, const RiskFigures& figures) {
+  return {{"name", name},
+          {"worst", number_or_null(figures.worst)},
+          {"mean", number_or_null(figures.mean)},
+          {"within", figures.within}};
+}
+
 Json risk_json(const ProblemSpec& spec, const RiskAnswer& answer) {
   Json json{{"horizon", spec.risk->horizon}, {"rate", answer.risk.rate}, {"modes", Json::array()}};
-  for (std::size_t mode = 0; mode < answer.figures.size(); ++mode) {
-    const RiskFigures& figures = answer.figures[mode];
-    json["modes"].push_back({{"name", spec.network->modes[mode].name},
-                             {"worst", number_or_null(figures.worst)},
-                             {"mean", number_or_null(figures.mean)},
-                             {"within", figures.within}});
-  }
+  for (std::size_t mode = 0; mode < answer.figures.size(); ++mode)
+    json["modes"].push_back(figures_json(spec.network->modes[mode].name, answer.figures[mode]));
+  const RiskFigures& start = answer.drawn_figures ? *answer.drawn_figures : answer.figures[spec.risk->start];
+  json["start"] =
+      figures_json(spec.risk->is_drawn ? "drawn" : spec.network->modes[spec.risk->start].name, start);
   return json;
 }
 
@@ -187,7 +197,8 @@ MemoryNeed risk_memory(const EngineSizes& sizes, int threads) {
   const auto modes = static_cast<double>(spec.network->modes.size());
   const auto expected = static_cast<double>(ExpectedRisks(*spec.network).different.size());
   constexpr double kFloat = sizeof(std::uint32_t), kDouble = sizeof(std::uint64_t);
-  MemoryNeed need{.kept = modes * kFloat * sizes.lanes(), .array = modes * kFloat * sizes.cells()};
+  const double arrays = modes + (spec.risk->is_drawn ? 1 : 0);
+  MemoryNeed need{.kept = arrays * kFloat * sizes.lanes(), .array = modes * kFloat * sizes.cells()};
   need.work = std::max(expected * kFloat * sizes.levels() + sizes.readers(threads, kFloat),
                        kDouble * sizes.levels() + sizes.readers(threads, kDouble));
   need.work += (modes + expected) * sizes.rows();  // flags for rows that have changed

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "answers/answers.hpp"
@@ -8,6 +9,7 @@
 #include "answers/risk/risk_figures.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+#include "spec/coordination_spec.hpp"
 
 namespace coordreq {
 
@@ -15,6 +17,15 @@ namespace coordreq {
 struct RiskAnswer {
   Risk risk;
   std::vector<RiskFigures> figures;  ///< [mode]
+  /// The risk before the mode of the first step is drawn, E_q V_N of the mode q in which the network begins;
+  /// if it is.
+  std::optional<RiskRows> drawn = {};
+  std::optional<RiskFigures> drawn_figures = {};
+
+  /// The risk where the network starts.
+  [[nodiscard]] const RiskRows& start(const RiskSpec& spec) const {
+    return drawn ? *drawn : risk.risks[spec.start];
+  }
 };
 
 /// Adds RiskAnswer, if the spec asks for it: "risk".

@@ -16,6 +16,7 @@ namespace coordreq {
 namespace {
 
 constexpr char kRisk[] = "/risk";
+constexpr char kDrawnRisk[] = "/risk_drawn";
 
 /// A mode that may follow, and its probability.
 struct Successor {
@@ -160,6 +161,7 @@ struct RiskClaims {
       : spec(*context.spec),
         risks(context.claims->at(kRisk).reals),
         rate(context.claims->number(kRisk, "rate")),
+        drawn(spec.risk->is_drawn ? &context.claims->at(kDrawnRisk).reals.front() : nullptr),
         outgoing(outgoing_of(*spec.network)),
         after(rank_all(outgoing, risks)) {
     std::size_t most = 0;
@@ -171,6 +173,7 @@ struct RiskClaims {
   const ProblemSpec& spec;
   const std::vector<std::vector<float>>& risks;  ///< [mode][cell]
   double rate;
+  const std::vector<float>* drawn;  ///< [cell], null: the mode of the first step is not drawn
   std::vector<Outgoing> outgoing;
   std::vector<Ranked> after;  ///< [mode]
   double rounding = 0;        ///< relative, of one step
@@ -221,9 +224,22 @@ class RiskChecker : public CellChecker {
         compare(cell, mode, claimed);
       }
     }
+    if (claims_.drawn != nullptr) compare_drawn(cell);
   }
 
  private:
+  /// The risk before the first draw follows from those claimed for the modes. It is rounded up to a float.
+  void compare_drawn(const CheckedCell& cell) {
+    constexpr double kPart = 1e-6, kLeast = 1e-40;
+    const auto claimed = double{(*claims_.drawn)[cell.at()]};
+    const double own = std::min(1.0, expected(claims_.outgoing.front(), [&](std::size_t mode) {
+                                  return as_probability(claims_.risks[mode][cell.at()]);
+                                }));
+    tally_.add_checked(1);
+    if (own * (1 - claims_.rounding) <= claimed && claimed <= own * (1 + kPart) + kLeast) return;
+    tally_.complain(cell, 0,
+                    fmt::format("risk {:.6g} where the first step is drawn, expected {:.6g}", claimed, own));
+  }
   void compare(CheckedCell& cell, std::size_t mode, double claimed) {
     const double next = step_.risk(mode, claims_.after[mode]);
     if (next * (1 - claims_.rounding) <= claimed + claims_.rate) return;

@@ -244,4 +244,21 @@ Risk find_risk(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& t
   return iteration.result(iteration.rate());
 }
 
+RiskRows drawn_risks(const ExpectedRisk& expected, const std::vector<RiskRows>& risks, const RowShare* share,
+                     ThreadTeam& team) {
+  const auto n = static_cast<std::size_t>(risks.front().row_length());
+  RiskRows drawn(risks.front().rows(), risks.front().row_length(), RowMargins{}, RowEnds{});
+  for_each_own_row(team, share, drawn.rows(), kTaskRows, [&](ThreadTeam::Range range, int) {
+    std::vector<std::uint32_t> lanes(n + kLevelBlock);
+    std::vector<const std::uint32_t*> rows(expected.successors().size());
+    for (std::int64_t row = range.begin; row < range.end; ++row) {
+      std::ranges::transform(expected.successors(), rows.begin(),
+                             [&](std::size_t mode) { return risks[mode].row(row); });
+      expected.find(rows, n, lanes.data());
+      drawn.put(row, lanes.data());
+    }
+  });
+  return drawn;
+}
+
 }  // namespace coordreq

@@ -73,4 +73,9 @@ struct RiskWatch {
 /// instead), and the projections of C for all partitions.
 [[nodiscard]] Risk find_risk(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team);
 
+/// E_q V: the risks before the mode of the next step is drawn, as one that follows q. In the rows that this
+/// process owns.
+[[nodiscard]] RiskRows drawn_risks(const ExpectedRisk& expected, const std::vector<RiskRows>& risks,
+                                   const RowShare* share, ThreadTeam& team);
+
 }  // namespace coordreq
