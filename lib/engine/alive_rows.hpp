@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "base/thread_team.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/level_rows.hpp"
 #include "engine/row_symmetry.hpp"
@@ -20,20 +22,28 @@ class AliveRows {
   /// @param symmetry may be null
   template <class Level>
   AliveRows(const LevelRows<Level>& levels, RowShare::Range own, std::int64_t unit_rows, bool rises,
-            const RowSymmetry* symmetry)
+            const RowSymmetry* symmetry, ThreadTeam& team)
       : is_alive_(static_cast<std::size_t>(levels.rows())),
         of_unit_(static_cast<std::size_t>((own.end + unit_rows - 1) / unit_rows), 0) {
-    const Level* before = nullptr;  // rows that are held once often follow one another
-    bool can = false;
-    for (std::int64_t r = own.begin; r < own.end; ++r) {
-      const Level* const row = levels.row(r);
-      if (row != before) can = can_change(levels, row, rises);
-      before = row;
-      if (!can || (symmetry != nullptr && !symmetry->is_canonical(r))) continue;
-      is_alive_[static_cast<std::size_t>(r)] = 1;
-      ++of_unit_[static_cast<std::size_t>(r / unit_rows)];
-      ++count_;
-    }
+    const std::int64_t first = own.begin / unit_rows;
+    const std::int64_t units = std::ssize(of_unit_) - first;
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(team.size()), 0);
+    team.for_each(units, 256, [&](ThreadTeam::Range range, int w) {
+      const std::int64_t begin = std::max(own.begin, (first + range.begin) * unit_rows);
+      const std::int64_t end = std::min(own.end, (first + range.end) * unit_rows);
+      const Level* before = nullptr;  // rows that are held once often follow one another
+      bool can = false;
+      for (std::int64_t r = begin; r < end; ++r) {
+        const Level* const row = levels.row(r);
+        if (row != before) can = can_change(levels, row, rises);
+        before = row;
+        if (!can || (symmetry != nullptr && !symmetry->is_canonical(r))) continue;
+        is_alive_[static_cast<std::size_t>(r)] = 1;
+        ++of_unit_[static_cast<std::size_t>(r / unit_rows)];
+        ++counts[static_cast<std::size_t>(w)];
+      }
+    });
+    count_ = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   }
 
   [[nodiscard]] bool has(std::int64_t row) const { return is_alive_[static_cast<std::size_t>(row)] != 0; }

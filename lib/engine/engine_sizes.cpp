@@ -236,7 +236,9 @@ double EngineSizes::sum_reader() const {
 }
 
 double EngineSizes::wave(int threads) const {
-  return readers(threads) + levels() / in_double(grid_[0].count);  // rows of a unit before they are written
+  // Rows of a batch before they are written, in vectors that grow; and the two orders of units.
+  const double batch = std::max(levels() / in_double(grid_[0].count), in_double(2 * kMostLevelsOfBatch));
+  return readers(threads) + std::min(levels(), batch) + 2 * sizeof(std::uint32_t) * rows();
 }
 
 }  // namespace coordreq

@@ -61,4 +61,18 @@ std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, cons
   return met;
 }
 
+ExchangeTimes find_times(const SweepOrder& order, RowShare::Range meeting, RowShare::Range sent) {
+  const auto has = [](RowShare::Range units, std::int64_t unit) {
+    return units.begin <= unit && unit < units.end;
+  };
+  ExchangeTimes times;
+  for (std::size_t batch = 0; batch < order.size(); ++batch) {
+    for (const std::uint32_t unit : order[batch].units) {
+      if (times.taking == ExchangeTimes::kNever && has(meeting, unit)) times.taking = batch;
+      if (has(sent, unit)) times.sending = batch;
+    }
+  }
+  return times;
+}
+
 }  // namespace coordreq

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/dirty_rows.hpp"
 #include "engine/level_messages.hpp"
+#include "engine/sweep_order.hpp"
 
 namespace coordreq {
 
@@ -16,19 +17,30 @@ namespace coordreq {
 [[nodiscard]] std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, const RowHull& hull,
                                                                  std::int64_t unit_rows);
 
+/// When, in a sweep, messages are taken in and sent: the numbers of batches.
+struct ExchangeTimes {
+  static constexpr std::size_t kNever = SIZE_MAX;
+  std::size_t taking = kNever;  ///< the first batch with a unit that can meet rows of the peer
+  std::size_t sending = 0;      ///< the last batch with a unit of which it holds rows
+};
+/// @param meeting, sent units by their numbers less first_unit, from the first to the last
+[[nodiscard]] ExchangeTimes find_times(const SweepOrder& order, RowShare::Range meeting,
+                                       RowShare::Range sent);
+
 /// The ghost exchange of a wave: sends dirty rows to the ranks that hold them as ghosts, and takes in its own
 /// ghost rows that are dirty.
 ///
-/// In each sweep a rank sends one message to every rank that holds rows of it, as soon as it is through with
-/// these rows. It takes in the message of the sweep before from every rank of which it holds rows, when it
-/// comes to the first unit that can meet them. So messages are on their way while other rows are worked out;
+/// In each sweep a rank sends one message to every rank that holds rows of it, after the last batch with such
+/// rows. It takes in the message of the sweep before from every rank of which it holds rows, when it comes to
+/// the first batch that can meet them. So messages are on their way while other rows are worked out;
 /// and the levels that a unit sees do not depend on how long messages take.
 template <class Level>
 class GhostExchange {
  public:
   /// @pre unchecked: there are several ranks, and all outlive this object.
+  /// @param orders of sweeps forwards and backwards, of the units from first_unit on
   GhostExchange(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, DirtyRows& dirty,
-                std::int64_t unit_rows)
+                std::int64_t unit_rows, const std::array<SweepOrder, 2>& orders, std::int64_t first_unit)
       : levels_(levels),
         ranks_(levels.share()->ranks()),
         messages_(levels),
@@ -38,10 +50,14 @@ class GhostExchange {
     const std::vector<RowShare::Range> meeting = units_that_meet_peers(engine, hull, unit_rows);
     for (std::size_t p = 0; p < all.size(); ++p) {
       peers_[p].share = &all[p];
-      peers_[p].meeting = meeting[p];
+      RowShare::Range sent{first_unit, first_unit};
       if (!all[p].sent.empty())
-        peers_[p].sent = {all[p].sent.front().begin / unit_rows,
-                          (all[p].sent.back().end - 1) / unit_rows + 1};
+        sent = {all[p].sent.front().begin / unit_rows, (all[p].sent.back().end - 1) / unit_rows + 1};
+      const auto counted = [&](RowShare::Range units) {
+        return RowShare::Range{units.begin - first_unit, units.end - first_unit};
+      };
+      for (std::size_t k = 0; k < orders.size(); ++k)
+        peers_[p].times[k] = find_times(orders[k], counted(meeting[p]), counted(sent));
     }
   }
 
@@ -53,23 +69,22 @@ class GhostExchange {
       if (!peer.share->received.empty() && number > 1) to_take_.push_back(&peer);
       if (!peer.share->sent.empty()) to_send_.push_back(&peer);
     }
-    const auto later_first = [](const auto& time) {
-      return [&time](const Peer* a, const Peer* b) { return time(*a) > time(*b); };
+    const auto later_first = [this](std::size_t ExchangeTimes::*time) {
+      return [this, time](const Peer* a, const Peer* b) { return times(*a).*time > times(*b).*time; };
     };
-    std::sort(to_take_.begin(), to_take_.end(), later_first(taking_time()));
-    std::sort(to_send_.begin(), to_send_.end(), later_first(sending_time()));
+    std::ranges::sort(to_take_, later_first(&ExchangeTimes::taking));
+    std::ranges::sort(to_send_, later_first(&ExchangeTimes::sending));
   }
 
-  /// To be called before a unit is looked at. Takes in the messages that it needs, and calls `visit(row)` for
-  /// the ghost rows in them.
+  /// To be called before a batch. Takes in the messages that it needs, and calls `visit(row)` for the ghost
+  /// rows in them.
   template <class Visit>
-  void before(std::int64_t unit, const Visit& visit) {
-    while (!to_take_.empty() && taking_time()(*to_take_.back()) <= time(unit)) take(visit);
+  void before(std::size_t batch, const Visit& visit) {
+    while (!to_take_.empty() && times(*to_take_.back()).taking <= batch) take(visit);
   }
-  /// To be called when the units up to this one, in the order of the sweep, are done. Sends the messages that
-  /// are complete.
-  void after(std::int64_t unit) {
-    while (!to_send_.empty() && sending_time()(*to_send_.back()) <= time(unit)) send();
+  /// To be called after a batch. Sends the messages that are complete.
+  void after(std::size_t batch) {
+    while (!to_send_.empty() && times(*to_send_.back()).sending <= batch) send();
   }
   /// Receives messages that have arrived, without taking them in.
   void listen() {
@@ -96,23 +111,12 @@ class GhostExchange {
  private:
   struct Peer {
     const RowShare::Peer* share = nullptr;
-    RowShare::Range meeting;       ///< units from the first to the last that can meet rows of it
-    RowShare::Range sent;          ///< units from the first to the last with rows that it holds
-    std::uint32_t told = 0;        ///< the last batch whose changes it was sent
-    std::optional<Bytes> arrived;  ///< a message that was received and not taken in
+    std::array<ExchangeTimes, 2> times;  ///< in sweeps forwards and backwards
+    std::uint32_t told = 0;              ///< the last batch whose changes it was sent
+    std::optional<Bytes> arrived;        ///< a message that was received and not taken in
   };
 
-  /// Ascends in the order of the sweep.
-  [[nodiscard]] std::int64_t time(std::int64_t unit) const { return backwards_ ? -unit : unit; }
-  [[nodiscard]] auto taking_time() const {
-    return [this](const Peer& peer) {
-      if (peer.meeting.begin == peer.meeting.end) return std::numeric_limits<std::int64_t>::max();
-      return backwards_ ? 1 - peer.meeting.end : peer.meeting.begin;
-    };
-  }
-  [[nodiscard]] auto sending_time() const {
-    return [this](const Peer& peer) { return backwards_ ? -peer.sent.begin : peer.sent.end - 1; };
-  }
+  [[nodiscard]] const ExchangeTimes& times(const Peer& peer) const { return peer.times[backwards_ ? 1 : 0]; }
 
   void send() {
     Peer& peer = *to_send_.back();

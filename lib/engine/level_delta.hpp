@@ -37,12 +37,15 @@ class LevelDelta {
   [[nodiscard]] const LevelRows<Level>& levels() const { return levels_; }
 
   /// Begins a sweep: cells that changed last before the sweep that has ended become kTop.
-  void begin_sweep() {
-    for (std::size_t r = 0; r < age_.size(); ++r) {
-      if (age_[r] == Age::old) continue;
-      forget(static_cast<std::int64_t>(r));
-      age_[r] = age_[r] == Age::now ? Age::before : Age::old;
-    }
+  void begin_sweep(ThreadTeam& team) {
+    team.for_each(std::ssize(age_), 256, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t row = range.begin; row < range.end; ++row) {
+        Age& age = age_[static_cast<std::size_t>(row)];
+        if (age == Age::old) continue;
+        forget(row);
+        age = age == Age::now ? Age::before : Age::old;
+      }
+    });
   }
 
   /// The levels of a row change. @param before, after its cells

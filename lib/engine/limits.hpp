@@ -39,4 +39,8 @@ inline constexpr std::size_t kJoinedPatches = 128;
   return count < 32 ? count / 8 : 4;
 }
 
+/// Levels of the rows of a batch of a wave, where one unit has not more: those that have changed are held
+/// until the batch is done.
+inline constexpr std::int64_t kMostLevelsOfBatch = std::int64_t{1} << 20;
+
 }  // namespace coordreq

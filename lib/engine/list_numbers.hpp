@@ -23,9 +23,16 @@ class ListNumbers {
 
   ListNumbers() : slots_(64, kFree) {}
 
+  [[nodiscard]] static std::uint64_t hash_of(List list) {
+    std::uint64_t hash = list.size();
+    for (const Number number : list) hash = mixed_hash(hash, number);
+    return hash;
+  }
+
   /// The number of a list.
-  std::uint32_t number(List list) {
-    const std::uint64_t hash = hash_of(list);
+  std::uint32_t number(List list) { return number(list, hash_of(list)); }
+  /// @param hash hash_of(list)
+  std::uint32_t number(List list, std::uint64_t hash) {
     std::size_t slot = hash & (slots_.size() - 1);
     for (; slots_[slot] != kFree; slot = (slot + 1) & (slots_.size() - 1)) {
       const std::uint32_t known = slots_[slot];
@@ -55,12 +62,6 @@ class ListNumbers {
 
  private:
   static constexpr std::uint32_t kFree = UINT32_MAX;
-
-  static std::uint64_t hash_of(List list) {
-    std::uint64_t hash = list.size();
-    for (const Number number : list) hash = mixed_hash(hash, number);
-    return hash;
-  }
 
   void grow() {
     slots_.assign(2 * slots_.size(), kFree);

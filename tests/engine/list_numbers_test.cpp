@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "base/thread_team.hpp"
+#include "engine/shared_list_numbers.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -36,6 +41,29 @@ TEST(ListNumbers, StartAgainAfterClear) {
   EXPECT_EQ(lists.number(List{7}), 0U);
   EXPECT_EQ(lists.number(List{5}), 1U);
   EXPECT_EQ(lists.number(List{7}), 0U);
+}
+
+TEST(SharedListNumbers, AreTheSameForEqualListsOnlyWhicheverThreadAsks) {
+  constexpr std::int64_t kLists = 500, kTimes = 8;
+  SharedListNumbers lists;
+  std::vector<std::uint32_t> numbers(kLists * kTimes);
+  std::vector<std::int64_t> noted(kLists << SharedListNumbers::kBits, 0);
+  ThreadTeam team(4);
+  team.for_each(std::ssize(numbers), 16, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t k = range.begin; k < range.end; ++k) {
+      const std::vector<std::uint32_t> list{1, 1, 1, static_cast<std::uint32_t>(k % kLists)};
+      numbers[static_cast<std::size_t>(k)] = lists.number(list, [&](std::size_t shard, std::uint32_t number) {
+        noted[number << SharedListNumbers::kBits | shard] += 1;
+      });
+    }
+  });
+  std::map<std::uint32_t, std::int64_t> list_of;
+  for (std::int64_t k = 0; k < std::ssize(numbers); ++k) {
+    const std::uint32_t number = numbers[static_cast<std::size_t>(k)];
+    EXPECT_EQ(list_of.emplace(number, k % kLists).first->second, k % kLists);
+    EXPECT_EQ(noted.at(number), kTimes);
+  }
+  EXPECT_EQ(std::ssize(list_of), kLists);
 }
 
 }  // namespace

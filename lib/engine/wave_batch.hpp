@@ -1,0 +1,385 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/fast_paths.hpp"
+#include "engine/alive_rows.hpp"
+#include "engine/dirty_rows.hpp"
+#include "engine/level_delta.hpp"
+#include "engine/tile_memo.hpp"
+#include "engine/wave.hpp"
+
+namespace coordreq {
+
+/// What a batch of a wave did, in rows.
+struct BatchCounts {
+  std::int64_t visited = 0;
+  std::int64_t copied = 0;    ///< instead of being visited
+  std::int64_t permuted = 0;  ///< made equal to their canonical row
+  std::int64_t changed = 0;   ///< of all of these but the permuted ones
+};
+
+/// Works out batches of a wave: chooses the rows that are pending, applies the operator to them, and writes
+/// those that have changed, each step by all threads.
+///
+/// Threads: for one thread, which shares each step with the team. Within a step threads write rows of their
+/// own; what they write is read in the next step.
+template <class Level>
+class WaveBatch {
+ public:
+  static constexpr Level kTop = LevelRows<Level>::kTop;
+
+  WaveBatch(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
+            RowOperator<Level>& op, ThreadTeam& team, const EqualWork& equal)
+      : levels_(levels),
+        engine_(engine),
+        own_(own_rows(engine.share(), engine.rows())),
+        limit_(limit),
+        op_(op),
+        team_(team),
+        units_(engine),
+        dirty_(engine, hull, units_),
+        memo_(equal, levels),
+        symmetry_(equal.symmetry),
+        alive_(levels, own_, units_.rows(), op.rises(), equal.symmetry, team) {
+    for (int w = 0; w < team.size(); ++w) workers_.emplace_back(w, engine, levels, dirty_);
+    if (fast_paths().level_delta && op.is_minimum() && !engine.posts().is_cut()) delta_.emplace(engine, team);
+    for (std::int64_t unit = first_unit(); unit < first_unit() + unit_count(); ++unit) {
+      if (alive_.of_unit(unit) > 0) dirty_.set_unseen(unit);
+    }
+  }
+
+  [[nodiscard]] const RowUnits& units() const { return units_; }
+  [[nodiscard]] const AliveRows& alive() const { return alive_; }
+  [[nodiscard]] DirtyRows& dirty() { return dirty_; }
+  /// The units with rows of this process.
+  [[nodiscard]] std::int64_t first_unit() const { return units_.of(own_.begin); }
+  [[nodiscard]] std::int64_t unit_count() const {
+    return own_.begin == own_.end ? 0 : units_.of(own_.end - 1) + 1 - first_unit();
+  }
+
+  void begin_sweep() {
+    lowest_ = kTop;
+    if (delta_) delta_->begin_sweep(team_);
+    memo_.begin_sweep(team_);
+  }
+  /// To which a cell has sunk in this sweep.
+  [[nodiscard]] Level lowest() const { return lowest_; }
+
+  /// @param units none of which has been looked at in this sweep, by their numbers less first_unit()
+  /// @param turn ascends from batch to batch by at least the rows of its units
+  /// @returns nothing if none of them is pending
+  std::optional<BatchCounts> run(std::span<const std::uint32_t> units, std::int64_t turn) {
+    counts_ = {};
+    batch_ = dirty_.begin_batch();
+    share(std::ssize(units), kFewUnits, [&](std::int64_t k, Worker& worker) {
+      choose(first_unit() + units[static_cast<std::size_t>(k)], turn + k * units_.rows(), worker);
+    });
+    list_tasks();
+    if (tasks_.empty() && copies_.empty()) {
+      dirty_.give_up_batch();
+      return std::nullopt;
+    }
+    share(std::ssize(tasks_), 2,
+          [&](std::int64_t t, Worker& worker) { visit(tasks_[static_cast<std::size_t>(t)], worker); });
+    if (!memo_.is_on() || memo_.rows() > 1) mark_seen();
+    commit();
+    copy();
+    add_up();
+    return counts_;
+  }
+
+  /// A ghost row has changed.
+  void hear_of(std::int64_t row) {
+    dirty_.mark(row);
+    if (delta_) delta_->change(row, levels_.row(row));
+    if (memo_.is_on()) memo_.update(row / memo_.rows(), workers_.front().memo.key);
+  }
+
+ private:
+  /// So many tasks a thread even out that some rows take longer than others.
+  static constexpr std::int64_t kTasksOfThread = 8;
+  /// Fewer units are chosen from, and fewer rows are written, sooner than they are handed out.
+  static constexpr std::int64_t kFewUnits = 64;
+  static constexpr std::int64_t kFewRows = 16;
+
+  struct Change {
+    std::int64_t row;
+    std::size_t position;  ///< in the worker's storage
+    std::uint64_t ready;   ///< LevelRows::make_ready()
+  };
+  /// Rows of one unit for one thread.
+  struct Task {
+    std::int64_t unit;
+    std::int64_t begin;
+    std::int64_t end;
+    bool is_wanted;           ///< its rows are known to be pending
+    std::uint32_t asked = 0;  ///< TileMemo::ask()
+  };
+  /// A tile that will be equal to another one.
+  struct Copy {
+    std::int64_t from;
+    std::int64_t to;
+  };
+  struct Worker {
+    Worker(int w, const RowEngine& engine, const LevelRows<Level>& levels, const DirtyRows& dirty_rows)
+        : number(w),
+          posts(engine, levels),
+          old(posts.lanes(), 0),
+          next(posts.lanes(), 0),
+          result(posts.lanes(), 0),
+          dirty(dirty_rows.make_scratch()) {}
+    int number;
+    PostReader<Level> posts;
+    std::vector<Level> old;
+    std::vector<Level> next;
+    std::vector<Level> result;
+    std::vector<Level> storage;  ///< rows that have changed
+    std::vector<Change> changes;
+    std::vector<Task> chosen;
+    DirtyRows::Scratch dirty;
+    typename TileMemo<Level>::Scratch memo;
+    BatchCounts counts;
+    Level lowest = kTop;      ///< to which a cell has sunk
+    std::uint32_t batch = 0;  ///< in which the reader was entered
+    std::int64_t unit = -1;   ///< that the reader was entered for
+  };
+
+  [[nodiscard]] Worker& worker(int w) { return workers_[static_cast<std::size_t>(w)]; }
+
+  /// Calls `work(k, worker)` for k below `count`, by all threads unless there are fewer than `few`.
+  template <class Work>
+  void share(std::int64_t count, std::int64_t few, const Work& work) {
+    const std::int64_t parts = kTasksOfThread * team_.size();
+    team_.for_each(count, count < few ? count : std::max<std::int64_t>(1, count / parts),
+                   [&](ThreadTeam::Range range, int w) {
+                     for (std::int64_t k = range.begin; k < range.end; ++k) work(k, worker(w));
+                   });
+  }
+
+  /// share() for rows to be written. Rows that are interned are written by one thread.
+  template <class Write>
+  void share_writing(std::int64_t count, const Write& write) {
+    share(count, levels_.is_interned() ? count + 1 : kFewRows, write);
+  }
+
+  /// Adds what is pending of a unit to what the worker has chosen.
+  void choose(std::int64_t unit, std::int64_t turn, Worker& worker) {
+    if (!dirty_.is_pending(unit, worker.dirty)) return;
+    const std::int64_t begin = std::max(unit * units_.rows(), own_.begin);
+    const std::int64_t end = std::min((unit + 1) * units_.rows(), own_.end);
+    if (!memo_.is_on() || memo_.rows() > 1) {
+      worker.chosen.push_back({unit, begin, end, units_.rows() == 1});
+      if (!memo_.is_on()) return;
+      units_.go_to(unit, worker.dirty.place);
+      worker.chosen.back().asked = memo_.ask(worker.dirty.place, turn, worker.memo);
+      return;
+    }
+    if (!dirty_.is_unseen(unit)) dirty_.enter(unit, worker.dirty);
+    for (RowPlace place(engine_.grid(), begin); place.row < end; place.advance(engine_.grid())) {
+      if (!is_to_be_looked_at(place, unit, worker.dirty)) continue;
+      const std::uint32_t asked = memo_.ask(place, turn + place.row - begin, worker.memo);
+      worker.chosen.push_back({unit, place.row, place.row + 1, true, asked});
+    }
+    dirty_.mark_seen(unit);
+  }
+
+  [[nodiscard]] bool is_to_be_looked_at(const RowPlace& place, std::int64_t unit,
+                                        DirtyRows::Scratch& scratch) const {
+    if (!alive_.has(place.row)) return false;
+    return dirty_.is_unseen(unit) || dirty_.meets_change(place, unit, scratch);
+  }
+
+  /// Divides what was chosen into tasks, and copies of tiles on which the work is equal.
+  void list_tasks() {
+    tasks_.clear();
+    copies_.clear();
+    for (Worker& worker : workers_) {
+      for (const Task& task : worker.chosen) {
+        const std::int64_t tile = memo_.is_on() ? task.begin / memo_.rows() : 0;
+        const std::int64_t first = memo_.is_on() ? memo_.first(task.asked) : 0;
+        if (first == tile) {
+          tasks_.push_back(task);
+        } else {
+          copies_.push_back({first, tile});
+        }
+      }
+      worker.chosen.clear();
+    }
+    if (memo_.is_on()) memo_.count(std::ssize(tasks_) + std::ssize(copies_), std::ssize(copies_));
+    divide_tasks();
+  }
+
+  /// Where there are few units, their rows are divided between the threads, at the price that several of
+  /// them find the same minima.
+  void divide_tasks() {
+    const std::int64_t wanted = team_.size() == 1 ? 1 : kTasksOfThread * team_.size();
+    const std::int64_t count = std::ssize(tasks_);
+    const std::int64_t parts = count == 0 ? 1 : (wanted + count - 1) / count;
+    if (parts == 1) return;
+    for (std::int64_t t = 0; t < count; ++t) {
+      Task& task = tasks_[static_cast<std::size_t>(t)];
+      const std::int64_t begin = task.begin, end = task.end;
+      const std::int64_t rows = std::max<std::int64_t>(1, (end - begin + parts - 1) / parts);
+      task.end = std::min(begin + rows, end);
+      Task next = task;
+      for (next.begin = task.end; next.begin < end; next.begin = next.end) {
+        next.end = std::min(next.begin + rows, end);
+        tasks_.push_back(next);
+      }
+    }
+  }
+
+  void visit(const Task& task, Worker& worker) {
+    if (worker.batch != batch_ || worker.unit != task.unit) {
+      worker.posts.enter(delta_ && !dirty_.is_unseen(task.unit) ? delta_->levels() : levels_);
+      worker.batch = batch_;
+      worker.unit = task.unit;
+    }
+    if (!task.is_wanted && !dirty_.is_unseen(task.unit)) dirty_.enter(task.unit, worker.dirty);
+    RowPlace place(engine_.grid(), task.begin);
+    for (; place.row < task.end; place.advance(engine_.grid())) {
+      if (task.is_wanted || is_to_be_looked_at(place, task.unit, worker.dirty)) visit_row(place, worker);
+    }
+  }
+
+  void visit_row(const RowPlace& place, Worker& worker) {
+    ++worker.counts.visited;
+    const auto n = static_cast<std::size_t>(levels_.row_length());
+    std::copy_n(levels_.row(place.row), n, worker.old.begin());
+    levels_.clear_gaps(worker.old.data());
+    if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), worker.number)) return;
+    const LevelKernels<Level>& kernels = worker.posts.kernels();
+    const bool is_changed =
+        op_.rises() ? kernels.rise(worker.next.data(), worker.old.data(), worker.result.data(), n)
+                    : kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n);
+    if (!is_changed) return;
+    if (!op_.rises())
+      worker.lowest =
+          std::min(worker.lowest, kernels.lowest_change(worker.result.data(), worker.old.data(), n));
+    const std::size_t position = worker.storage.size();
+    worker.storage.resize(position + static_cast<std::size_t>(levels_.stride()));
+    Level* const lanes = worker.storage.data() + position;
+    std::copy_n(worker.result.begin(), n, lanes + levels_.margins().before);
+    worker.changes.push_back({place.row, position, levels_.make_ready(lanes)});
+  }
+
+  void mark_seen() {
+    for (const Task& task : tasks_) dirty_.mark_seen(task.unit);
+    for (const Copy& copy : copies_) dirty_.mark_seen(units_.of(copy.to * memo_.rows()));
+  }
+
+  /// Writes the rows that have changed.
+  void commit() {
+    ends_.clear();
+    for (const Worker& worker : workers_)
+      ends_.push_back((ends_.empty() ? 0 : ends_.back()) + std::ssize(worker.changes));
+    const std::int64_t count = ends_.back();
+    counts_.changed += count;
+    share_writing(count, [&](std::int64_t k, Worker& by) {
+      const auto owner = static_cast<std::size_t>(std::ranges::upper_bound(ends_, k) - ends_.begin());
+      const Worker& from = workers_[owner];
+      commit(from, from.changes[static_cast<std::size_t>(k - ends_[owner] + std::ssize(from.changes))], by);
+    });
+    for (Worker& worker : workers_) {
+      worker.changes.clear();
+      worker.storage.clear();
+    }
+  }
+
+  void commit(const Worker& from, const Change& change, Worker& by) {
+    const Level* const lanes = from.storage.data() + change.position;
+    const auto note = [&](std::int64_t row) {
+      if (delta_) delta_->change(row, levels_.row(row), lanes + levels_.margins().before);
+      dirty_.mark(row);
+    };
+    note(change.row);
+    levels_.put_ready(change.row, lanes, change.ready);
+    for_each_permuted(change.row, [&](std::int64_t permuted) {
+      note(permuted);
+      static_cast<void>(levels_.copy_row(change.row, permuted));
+      ++by.counts.permuted;
+    });
+  }
+
+  /// Copies rows on which the work was equal, and numbers the contents of tiles that have changed.
+  void copy() {
+    const std::int64_t copies = std::ssize(copies_);
+    share_writing(copies,
+                  [&](std::int64_t k, Worker& by) { copy(copies_[static_cast<std::size_t>(k)], by); });
+    if (!memo_.is_on() || memo_.rows() == 1) return;
+    share(copies + std::ssize(tasks_), kFewRows, [&](std::int64_t k, Worker& by) {
+      if (k < copies) return renumber(copies_[static_cast<std::size_t>(k)].to, by);
+      const Task& task = tasks_[static_cast<std::size_t>(k - copies)];
+      if (task.begin == task.unit * memo_.rows()) renumber(task.unit, by);
+    });
+  }
+
+  void copy(const Copy& copy, Worker& by) {
+    by.counts.copied += memo_.rows() == 1 ? 1 : alive_.of_unit(copy.to);
+    const auto note = [&](std::int64_t row) {
+      dirty_.mark(row);
+      if (delta_) delta_->change(row, levels_.row(row));
+      ++by.counts.changed;
+    };
+    memo_.copy(copy.from, copy.to, [&](std::int64_t row) {
+      note(row);
+      for_each_permuted(row, [&](std::int64_t permuted) {
+        if (levels_.copy_row(row, permuted)) note(permuted);
+        ++by.counts.permuted;
+      });
+    });
+  }
+
+  void renumber(std::int64_t tile, Worker& by) {
+    if (!dirty_.has_unit_changed(tile)) return;
+    memo_.update(tile, by.memo.key);
+    for_each_permuted(tile * memo_.rows(),
+                      [&](std::int64_t permuted) { memo_.update(permuted / memo_.rows(), by.memo.key); });
+  }
+
+  /// RowSymmetry::for_each_permuted(), if there is a symmetry.
+  template <class Visit>
+  void for_each_permuted(std::int64_t row, const Visit& visit) const {
+    if (symmetry_ != nullptr) symmetry_->for_each_permuted(row, visit);
+  }
+
+  void add_up() {
+    for (Worker& worker : workers_) {
+      counts_.visited += worker.counts.visited;
+      counts_.copied += worker.counts.copied;
+      counts_.permuted += worker.counts.permuted;
+      counts_.changed += worker.counts.changed;
+      lowest_ = std::min(lowest_, worker.lowest);
+      worker.counts = {};
+      worker.lowest = kTop;
+    }
+  }
+
+  LevelRows<Level>& levels_;
+  const RowEngine& engine_;
+  RowShare::Range own_;
+  Level limit_;
+  RowOperator<Level>& op_;
+  ThreadTeam& team_;
+  RowUnits units_;
+  DirtyRows dirty_;
+  TileMemo<Level> memo_;
+  std::optional<LevelDelta<Level>> delta_;  ///< where less is read so
+  const RowSymmetry* symmetry_;             ///< null: there is none
+  AliveRows alive_;
+  Level lowest_ = kTop;
+  std::uint32_t batch_ = 0;  ///< its number
+  BatchCounts counts_;
+  std::deque<Worker> workers_;
+  std::vector<Task> tasks_;
+  std::vector<Copy> copies_;
+  std::vector<std::int64_t> ends_;  ///< [worker] changes up to its own
+};
+
+}  // namespace coordreq
