@@ -43,8 +43,8 @@ SumReader<Level>::SumReader(const RowEngine& engine, const LevelRows<Level>& lev
   offsets_.resize(n + kLanes);
   result_.resize(n + kLevelBlock / sizeof(Level));
   const std::size_t bytes = variants_ * static_cast<std::size_t>(patch_cells_) * sizeof(Level);
-  slots_.resize(std::clamp<std::size_t>(kPatchBytes / bytes, 2, kMostSlots));
-  joined_slots_.resize(kJoinedPatches);
+  slots_.table.resize(std::clamp<std::size_t>(kPatchBytes / bytes, 2, kMostSlots));
+  joined_slots_.table.resize(kJoinedPatches);
 }
 
 /// Lays out a patch, with room beyond the domain for the largest box on either side; sizes are row-major over
@@ -245,7 +245,7 @@ void SumReader<Level>::fetch(const Slot& slot, LaneRange lanes, Level rest) {
   sums_->find_offsets(sides_.data(), sides_.size(), has_all_sizes ? first_offset_ : origin_, offsets_.data(),
                       n);
   // By local pointers: else compilers allow for bytes written to be those of the vectors themselves.
-  const Level* const levels = slot.levels.data();
+  const Level* const levels = slot.levels;
   const std::int32_t* const offset = offsets_.data();
   Level* const result = result_.data();
   for (std::size_t c = 0; c < n; ++c) result[c] = levels[offset[c]];
@@ -269,29 +269,38 @@ typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std:
   for (const std::int32_t width : widths) hash = mixed_hash(hash, static_cast<std::uint32_t>(width));
   // A few slots are looked at; where all are taken the last one is used again.
   constexpr std::size_t kProbes = 4;
-  std::size_t at = (hash >> 32) % slots.size();
-  for (std::size_t probe = 0; probe < kProbes; ++probe, at = (at + 1) % slots.size()) {
-    Slot& candidate = slots[at];
+  std::vector<Slot>& table = slots.table;
+  std::size_t at = (hash >> 32) % table.size();
+  for (std::size_t probe = 0; probe < kProbes; ++probe, at = (at + 1) % table.size()) {
+    Slot& candidate = table[at];
     const bool is_taken = candidate.epoch == epoch_;
     if (is_taken && candidate.ranges == ranges_ && candidate.widths == widths) return candidate;
     if (is_taken && probe + 1 < kProbes) continue;
+    if (!is_taken) candidate.levels = next_buffer(slots, widths.empty() ? variants_ : 1);
     candidate.epoch = epoch_;
     candidate.ranges = ranges_;
     candidate.widths = widths;
     fill(candidate, gone);
     return candidate;
   }
-  return slots[at];  // not reached
+  return table[at];  // not reached
+}
+
+template <class Level>
+Level* SumReader<Level>::next_buffer(Slots& slots, std::size_t sizes) const {
+  if (slots.used == slots.buffers.size()) {
+    // Erosion reads beyond a patch, from the one after it; those levels make no difference.
+    std::int64_t beyond = 0;
+    for (std::size_t i = 0; i < sides_.size(); ++i) beyond += std::int64_t{reach_[i] + 1} * sides_[i].stride;
+    slots.buffers.emplace_back(sizes * static_cast<std::size_t>(patch_cells_) +
+                               static_cast<std::size_t>(beyond) + kLevelBlock);
+  }
+  return slots.buffers[slots.used++].data();
 }
 
 template <class Level>
 void SumReader<Level>::fill(Slot& slot, bool gone) {
   const std::size_t sizes = slot.widths.empty() ? variants_ : 1;
-  // Erosion reads beyond a patch, from the one after it; those levels make no difference.
-  std::int64_t beyond = 0;
-  for (std::size_t i = 0; i < sides_.size(); ++i) beyond += std::int64_t{reach_[i] + 1} * sides_[i].stride;
-  slot.levels.resize(sizes * static_cast<std::size_t>(patch_cells_) + static_cast<std::size_t>(beyond) +
-                     kLevelBlock);
   fill_patch(slot, gone);
   erode_patch(slot, slot.widths.empty() ? narrowest_ : slot.widths);
   for (std::size_t size = 1; size < sizes; ++size) erode(slot, size);
@@ -302,7 +311,7 @@ template <class Level>
 void SumReader<Level>::fill_patch(Slot& slot, bool gone) {
   const auto n = static_cast<std::size_t>(levels_->row_length());
   for (std::size_t inner = 0; inner < row_offsets_.size(); ++inner) {
-    Level* target = slot.levels.data() + row_offsets_[inner];
+    Level* target = slot.levels + row_offsets_[inner];
     if (gone) {
       std::fill_n(target, n, kTop);
       continue;
@@ -312,8 +321,7 @@ void SumReader<Level>::fill_patch(Slot& slot, bool gone) {
     kernels_->minimum(sources_.data(), sources_.size(), target, n);
   }
   for (const Margin& margin : margins_) {
-    slot.levels[static_cast<std::size_t>(margin.cell)] =
-        margin.source < 0 ? margin.constant : slot.levels[static_cast<std::size_t>(margin.source)];
+    slot.levels[margin.cell] = margin.source < 0 ? margin.constant : slot.levels[margin.source];
   }
 }
 
@@ -321,7 +329,7 @@ void SumReader<Level>::fill_patch(Slot& slot, bool gone) {
 /// doubling.
 template <class Level>
 void SumReader<Level>::erode_patch(Slot& slot, const std::vector<std::int32_t>& widths) {
-  Level* patch = slot.levels.data();
+  Level* patch = slot.levels;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     for (std::int32_t done = 1; done < widths[i] + 1;) {
       const std::int32_t step = std::min(done, widths[i] + 1 - done);
@@ -339,9 +347,9 @@ void SumReader<Level>::erode(Slot& slot, std::size_t size) {
   std::size_t i = 0;
   while (size / size_stride_[i] % static_cast<std::size_t>(sizes_[i]) == 0) ++i;
   const auto cells = static_cast<std::size_t>(patch_cells_);
-  const Level* shorter = slot.levels.data() + (size - size_stride_[i]) * cells;
+  const Level* shorter = slot.levels + (size - size_stride_[i]) * cells;
   const Level* pair[] = {shorter, shorter + sides_[i].stride};
-  kernels_->minimum(pair, 2, slot.levels.data() + size * cells, cells);
+  kernels_->minimum(pair, 2, slot.levels + size * cells, cells);
 }
 
 template class SumReader<std::uint8_t>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -32,7 +33,11 @@ class SumReader final : public RowReader<Level> {
   SumReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
   void read(const LevelRows<Level>& levels) override { levels_ = &levels; }
-  void enter() override { ++epoch_; }
+  void enter() override {
+    ++epoch_;
+    slots_.used = 0;
+    joined_slots_.used = 0;
+  }
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override {
     return minimum(ids, {0, static_cast<std::size_t>(levels_->row_length())}, kTop);
   }
@@ -61,9 +66,14 @@ class SumReader final : public RowReader<Level> {
     std::vector<IndexRange> ranges;
     std::vector<std::int32_t> widths;  ///< last - first of the one size; empty: all sizes are there
     std::uint64_t epoch = 0;
-    std::vector<Level> levels;  ///< [size][cell of the patch]
+    Level* levels = nullptr;  ///< [size][cell of the patch], a buffer
   };
-  using Slots = std::vector<Slot>;
+  /// The buffers are for all slots together, so that there are as many as one unit has needed.
+  struct Slots {
+    std::vector<Slot> table;  ///< by hash
+    std::deque<std::vector<Level>> buffers;
+    std::size_t used = 0;  ///< buffers that slots of this epoch have
+  };
   /// The slices of some choices.
   struct Choices {
     std::vector<RowSegment::Kind> kinds;  ///< [choice] of the leading dimensions together, see lead()
@@ -80,6 +90,7 @@ class SumReader final : public RowReader<Level> {
   void fetch(const Slot& slot, LaneRange lanes, Level rest);
   void fill_rest(LaneRange lanes, Level rest);
   [[nodiscard]] Slot& slot(Slots& slots, const std::vector<std::int32_t>& widths, bool gone);
+  [[nodiscard]] Level* next_buffer(Slots& slots, std::size_t sizes) const;
   void fill(Slot& slot, bool gone);
   void fill_patch(Slot& slot, bool gone);
   void erode(Slot& slot, std::size_t size);
