@@ -116,13 +116,13 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   } else if (!is_cut) {
     context.share = nothing_owned(*context.ranks);
   }
-  context.engine.emplace(abstraction, nullptr, context.tubes(), context.shared_rows());
-  context.hull.emplace(*context.engine);
+  context.engine.emplace(abstraction, nullptr, context.tubes(), context.shared_rows(), &team);
+  context.hull.emplace(*context.engine, &team);
   if (context.ranks != nullptr) share_context(context, is_cut, find_safe);
   context.pairs = pair_rules(context.spec, abstraction, team,
                              context.listed ? &context.listed->pairs : nullptr, context.shared_rows());
   context.engine->set_pairs(context.pairs);
-  context.tiles = Tiles::find(*context.engine, *context.hull, context.safe);
+  context.tiles = Tiles::find(*context.engine, *context.hull, context.safe, &team);
   if (context.ranks == nullptr && context.pairs.admissible() == nullptr)
     context.like_agents = find_agents_alike(context);
   context.safe_cells = context.count(context.safe);

@@ -177,6 +177,11 @@ void ThreadTeam::for_each(std::int64_t count, std::int64_t grain, const Body& bo
   if (state.failure) std::rethrow_exception(state.failure);
 }
 
+void for_each(ThreadTeam* team, std::int64_t count, std::int64_t grain, const ThreadTeam::Body& body) {
+  if (team != nullptr) return team->for_each(count, grain, body);
+  if (count > 0) body({0, count}, 0);
+}
+
 void ThreadTeam::set_watch(Watch watch) {
   state_->watch = std::move(watch);
 }

@@ -48,4 +48,7 @@ class ThreadTeam {
   std::unique_ptr<State> state_;
 };
 
+/// ThreadTeam::for_each(), or with null as if by a team of this thread alone.
+void for_each(ThreadTeam* team, std::int64_t count, std::int64_t grain, const ThreadTeam::Body& body);
+
 }  // namespace coordreq

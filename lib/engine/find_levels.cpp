@@ -66,11 +66,20 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
 /// Makes rows equal to their canonical rows, whose bounds are bounds of all permuted rows. The least of these
 /// would be closer, but a process does not hold all of them.
 template <class Level>
-void copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels) {
+void copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels, ThreadTeam& team) {
+  constexpr std::int64_t kRows = 1 << 16, kRowsAtOnce = 1 << 10;
+  std::vector<std::int64_t> first(kRows);  // found by all threads; rows that are interned are copied by one
   for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
-    for (std::int64_t r = run.begin; r < run.end; ++r) {
-      const std::int64_t first = symmetry.canonical_of(r);
-      if (first != r) static_cast<void>(levels.copy_row(first, r));
+    for (std::int64_t begin = run.begin; begin < run.end; begin += kRows) {
+      const std::int64_t count = std::min(kRows, run.end - begin);
+      team.for_each(count, kRowsAtOnce, [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k)
+          first[static_cast<std::size_t>(k)] = symmetry.canonical_of(begin + k);
+      });
+      for (std::int64_t k = 0; k < count; ++k) {
+        if (const std::int64_t row = first[static_cast<std::size_t>(k)]; row != begin + k)
+          static_cast<void>(levels.copy_row(row, begin + k));
+      }
     }
   }
 }
@@ -125,7 +134,7 @@ class LevelFinder {
       watch_.step(step);
     } : std::function<void(const WaveStep&)>()};
     const RowSymmetry* const symmetry = problem_.equal.symmetry;
-    if (symmetry != nullptr) copy_canonical_rows(*symmetry, levels);
+    if (symmetry != nullptr) copy_canonical_rows(*symmetry, levels, team_);
     counts_.add(
         run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), *op, watch, team_, problem_.equal));
     if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <mutex>
 #include <set>
 
 #include "base/fast_paths.hpp"
@@ -15,6 +16,8 @@ using Kind = RowSegment::Kind;
 /// With more levels than this in the patches of a unit, for all sizes of boxes, eroding takes longer than it
 /// saves.
 constexpr double kMostPatchLevels = 1 << 22;
+/// Rows that are added up that one thread takes at a time.
+constexpr std::int64_t kRowsAtOnce = 1 << 14;
 
 /// Means of a table, from a sample of its entries.
 struct TableFigures {
@@ -52,9 +55,9 @@ TableFigures figures_of(const RowSlices& slices, const RowShare* share) {
 }  // namespace
 
 RowEngine::RowEngine(const Abstraction& abstraction, const PairRules* pairs, const TubeSets& tubes,
-                     const RowShare* share)
+                     const RowShare* share, ThreadTeam* team)
     : abstraction_(&abstraction), pairs_(pairs), share_(share) {
-  add_family(abstraction.tables, abstraction.grid.dimensions());
+  add_family(abstraction.tables, abstraction.grid.dimensions(), team);
   choose_outer();
   if (tubes.inside == nullptr) return;
   std::vector<GridDimension> dimensions =
@@ -105,7 +108,7 @@ std::vector<RowSlices> RowEngine::summed_slices() const {
 }
 
 void RowEngine::add_family(const std::vector<TransitionTable>& tables,
-                           const std::vector<GridDimension>& targets) {
+                           const std::vector<GridDimension>& targets, ThreadTeam* team) {
   targets_.insert(targets_.end(), targets.begin(), targets.end());
   std::vector<RowSlices> sums;
   if (slices_.empty()) sums = summed_slices();
@@ -118,30 +121,38 @@ void RowEngine::add_family(const std::vector<TransitionTable>& tables,
     const RowEnds ends{targets[i].below, targets[i].above};
     RowSlices& slices = slices_[slices_.size() - tables.size() + i];
     const std::int64_t count = targets[i].count;
-    shape.dimensions.push_back({count, grid().stride(i), margins_of(slices, count, ends), ends});
+    shape.dimensions.push_back({count, grid().stride(i), margins_of(slices, count, ends, team), ends});
   }
 }
 
 /// Brings windows along the row to the shortest of the same meaning. @returns margins that hold them
-RowMargins RowEngine::margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const {
+RowMargins RowEngine::margins_of(RowSlices& slices, std::int64_t count, RowEnds ends,
+                                 ThreadTeam* team) const {
   RowMargins margins;
-  const auto widen = [&margins](IndexRange window) {
-    margins.before = std::max<std::int64_t>(margins.before, -window.first);
-    margins.after = std::max<std::int64_t>(margins.after, window.last);
+  const auto widen = [](RowMargins& some, IndexRange window) {
+    some.before = std::max<std::int64_t>(some.before, -window.first);
+    some.after = std::max<std::int64_t>(some.after, window.last);
   };
   for (std::vector<RowSegment>& slice : slices.slices) {
     for (RowSegment& segment : slice) {
       if (segment.kind != Kind::shifted) continue;
       segment.range = fit_window(segment.range, count, ends);
-      widen(segment.range);
+      widen(margins, segment.range);
     }
   }
   if (slices.sums) {
-    SumRows::Reader reader(*slices.sums);
-    for (std::int64_t i = 0; i < slices.size(); ++i) {
-      const SumRows::Row row = reader.row(static_cast<std::uint32_t>(i));
-      widen(fit_window(slices.sums->offset_hull(row), count, ends));
-    }
+    std::mutex mutex;
+    for_each(team, slices.size(), kRowsAtOnce, [&](ThreadTeam::Range range, int) {
+      SumRows::Reader reader(*slices.sums);
+      RowMargins some;
+      for (std::int64_t i = range.begin; i < range.end; ++i) {
+        const SumRows::Row row = reader.row(static_cast<std::uint32_t>(i));
+        widen(some, fit_window(slices.sums->offset_hull(row), count, ends));
+      }
+      const std::lock_guard lock(mutex);
+      margins.before = std::max(margins.before, some.before);
+      margins.after = std::max(margins.after, some.after);
+    });
   }
   return margins;
 }

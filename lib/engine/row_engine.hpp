@@ -51,9 +51,10 @@ class RowEngine {
   /// @param pairs may be null: all pairs are allowed
   /// @param tubes the sets that tubes must stay in, if there are tubes
   /// @param share which rows are whose, together; null: there is one process
+  /// @param team for large tables; null: this thread alone
   /// @pre unchecked: they outlive this object
   RowEngine(const Abstraction& abstraction, const PairRules* pairs, const TubeSets& tubes,
-            const RowShare* share = nullptr);
+            const RowShare* share = nullptr, ThreadTeam* team = nullptr);
 
   /// From now on only these pairs are allowed. @pre there were no pairs.
   /// @pre unchecked: allow() and permitted() were not called before; `pairs` outlives this object
@@ -123,12 +124,14 @@ class RowEngine {
 
  private:
   [[nodiscard]] std::vector<RowSlices> summed_slices() const;
-  void add_family(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets);
+  void add_family(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets,
+                  ThreadTeam* team = nullptr);
   void add_demand(const CellSet& inside, const std::vector<GridDimension>& targets);
   void add_inner_demand(const CellSet& inside, std::vector<GridDimension> dimensions);
   [[nodiscard]] RowFamily family(std::size_t number) const;
   void choose_outer();
-  [[nodiscard]] RowMargins margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const;
+  [[nodiscard]] RowMargins margins_of(RowSlices& slices, std::int64_t count, RowEnds ends,
+                                      ThreadTeam* team) const;
 
   const Abstraction* abstraction_;
   const PairRules* pairs_;

@@ -66,7 +66,7 @@ std::vector<TubeHulls> hulls_of_tubes(const RowEngine& engine) {
     TubeHulls& hulls = result.emplace_back();
     for (std::size_t i = 0; i < engine.across(); ++i) {
       const RowSlices& slices = demand.family.slices[i];
-      hulls.push_back({&slices, slice_hulls(slices, engine.grid()[i], nullptr)});
+      hulls.push_back({&slices, slice_hulls(slices, engine.grid()[i], nullptr, nullptr)});
     }
   }
   return result;
@@ -74,12 +74,12 @@ std::vector<TubeHulls> hulls_of_tubes(const RowEngine& engine) {
 
 }  // namespace
 
-RowHull::RowHull(const RowEngine& engine) : engine_(&engine) {
+RowHull::RowHull(const RowEngine& engine, ThreadTeam* team) : engine_(&engine) {
   const RowFamily posts = engine.posts();
   for (std::size_t i = 0; i < engine.tables(); ++i) {
     const bool is_along = i >= engine.across();
     hulls_.push_back(slice_hulls(posts.slices[i], engine.grid()[i],
-                                 is_along ? &posts.shape.dimensions[i - engine.across()] : nullptr));
+                                 is_along ? &posts.shape.dimensions[i - engine.across()] : nullptr, team));
   }
 }
 

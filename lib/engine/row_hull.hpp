@@ -15,7 +15,8 @@ namespace coordreq {
 class RowHull {
  public:
   /// @pre unchecked: `engine` outlives this object.
-  explicit RowHull(const RowEngine& engine);
+  /// @param team for large tables; null: this thread alone
+  explicit RowHull(const RowEngine& engine, ThreadTeam* team = nullptr);
 
   /// box = the box of the posts of a row.
   void box(const RowPlace& place, RowBox& box) const;

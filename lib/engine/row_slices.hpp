@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/thread_team.hpp"
 #include "engine/row_box.hpp"
 #include "engine/row_shape.hpp"
 #include "engine/sum_rows.hpp"
@@ -72,8 +73,9 @@ struct RowSlices {
 /// For each base, a multiple of input_combinations: the range around the slices from there to the next one,
 /// resolved, or a window along the row; {0, -1}: the slices meet no cell.
 /// @param along the table's dimension if it is along rows; null: it is across them
+/// @param team may be null
 [[nodiscard]] std::vector<IndexRange> slice_hulls(const RowSlices& slices, const GridDimension& target,
-                                                  const RowDimension* along);
+                                                  const RowDimension* along, ThreadTeam* team);
 
 /// Cuts a table into slices. @param table of `state`, in abstraction.tables or abstraction.tubes
 /// @param target the dimension of `state`, maybe with other rules for leaving the domain

@@ -74,14 +74,18 @@ bool RowSlices::is_within(std::uint32_t a, std::uint32_t b, const GridDimension&
 }
 
 std::vector<IndexRange> slice_hulls(const RowSlices& slices, const GridDimension& target,
-                                    const RowDimension* along) {
-  std::optional<SumRows::Reader> reader;
-  if (slices.sums) reader.emplace(*slices.sums);
-  std::vector<IndexRange> hulls;
-  for (std::int64_t base = 0; base < slices.size(); base += slices.input_combinations) {
-    hulls.push_back(reader ? hull_of_sums(slices, base, *reader, target, along)
-                           : hull_of_segments(slices, base, target, along));
-  }
+                                    const RowDimension* along, ThreadTeam* team) {
+  constexpr std::int64_t kSlicesAtOnce = 1 << 14;
+  const std::int64_t inputs = slices.input_combinations, bases = (slices.size() + inputs - 1) / inputs;
+  std::vector<IndexRange> hulls(static_cast<std::size_t>(bases));
+  for_each(team, bases, kSlicesAtOnce / inputs, [&](ThreadTeam::Range range, int) {
+    std::optional<SumRows::Reader> reader;
+    if (slices.sums) reader.emplace(*slices.sums);
+    for (std::int64_t k = range.begin; k < range.end; ++k) {
+      hulls[static_cast<std::size_t>(k)] = reader ? hull_of_sums(slices, k * inputs, *reader, target, along)
+                                                  : hull_of_segments(slices, k * inputs, target, along);
+    }
+  });
   return hulls;
 }
 

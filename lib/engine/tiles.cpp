@@ -6,6 +6,7 @@
 #include "base/fast_paths.hpp"
 #include "engine/action_sources.hpp"
 #include "engine/interner.hpp"
+#include "engine/shared_list_numbers.hpp"
 
 namespace coordreq {
 namespace {
@@ -19,6 +20,8 @@ constexpr std::int64_t kSample = 4096;
 constexpr double kMostDifferent = 0.5;
 /// Fewer rows are worked out sooner than compared.
 constexpr std::int64_t kFewRows = 4;
+/// Tiles that one thread takes at a time.
+constexpr std::int64_t kTilesAtOnce = 1024;
 
 void add_segment(const RowSegment& segment, std::int64_t origin, const GridDimension& target, Numbers& list) {
   const bool is_moved = segment.kind == Kind::fixed;
@@ -117,15 +120,17 @@ void Tiles::add_tables(std::int64_t tile, Numbers& list) const {
   }
 }
 
-void Tiles::number_tables() {
-  ListNumbers<std::uint32_t> lists;
-  Numbers list;
+void Tiles::number_tables(ThreadTeam* team) {
+  SharedListNumbers lists;
   tables_.assign(static_cast<std::size_t>(size_), 0);
-  for (std::int64_t tile = own_.begin; tile < own_.end; ++tile) {
-    list.clear();
-    add_tables(tile, list);
-    tables_[static_cast<std::size_t>(tile)] = lists.number(list);
-  }
+  for_each(team, own_.end - own_.begin, kTilesAtOnce, [&](ThreadTeam::Range range, int) {
+    Numbers list;
+    for (std::int64_t tile = own_.begin + range.begin; tile < own_.begin + range.end; ++tile) {
+      list.clear();
+      add_tables(tile, list);
+      tables_[static_cast<std::size_t>(tile)] = lists.number(list);
+    }
+  });
 }
 
 void Tiles::find_shift(std::int64_t from, std::int64_t to, std::vector<std::int32_t>& shift) const {
@@ -147,19 +152,21 @@ Numbers Tiles::contents_of_tiles(const Numbers& content) const {
   return result;
 }
 
-Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
+Numbers Tiles::refined(const Numbers& before, const Numbers& content, ThreadTeam* team) const {
   const Numbers of_tiles = contents_of_tiles(content);
-  ListNumbers<std::uint32_t> lists;
-  Scratch scratch;
-  Numbers result(static_cast<std::size_t>(size_), 0), list;
-  for (RowPlace place(engine_->grid(), own_.begin * rows_); place.row < own_.end * rows_;) {
-    const auto tile = static_cast<std::size_t>(place.row / rows_);
-    list.assign(1, before[tile]);
-    add_contents(
-        place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
-    result[tile] = lists.number(list);
-    place = RowPlace(engine_->grid(), place.row + rows_);
-  }
+  SharedListNumbers lists;
+  Numbers result(static_cast<std::size_t>(size_), 0);
+  for_each(team, own_.end - own_.begin, kTilesAtOnce, [&](ThreadTeam::Range range, int) {
+    Scratch scratch;
+    Numbers list;
+    for (std::int64_t tile = own_.begin + range.begin; tile < own_.begin + range.end; ++tile) {
+      list.assign(1, before[static_cast<std::size_t>(tile)]);
+      add_contents(
+          RowPlace(engine_->grid(), tile * rows_),
+          [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
+      result[static_cast<std::size_t>(tile)] = lists.number(list);
+    }
+  });
   return result;
 }
 
@@ -192,11 +199,12 @@ double Tiles::fraction_different(const Numbers& content) const {
 std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, std::size_t leading) {
   if (!are_possible(engine) || leading == 0) return std::nullopt;
   Tiles tiles(engine, hull, leading);
-  tiles.number_tables();
+  tiles.number_tables(nullptr);
   return tiles;
 }
 
-std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, const CellSet& set) {
+std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, const CellSet& set,
+                                 ThreadTeam* team) {
   const RowShare::Range own = own_rows(engine.share(), engine.rows());
   if (!are_possible(engine) || own.end - own.begin < kFewRows) return std::nullopt;
   const Numbers content = number_rows(set, engine.share());
@@ -213,7 +221,7 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
     least = fraction;
     best = std::move(tiles);
   }
-  if (best) best->number_tables();
+  if (best) best->number_tables(team);
   return best;
 }
 

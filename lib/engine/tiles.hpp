@@ -35,9 +35,10 @@ class Tiles {
 
   /// Rows or units as tiles, whichever are more often equal in a sample; nothing if neither are often.
   /// @param set the content of rows in the sample
+  /// @param team may be null
   /// @pre unchecked: engine and hull outlive the tiles.
   [[nodiscard]] static std::optional<Tiles> find(const RowEngine& engine, const RowHull& hull,
-                                                 const CellSet& set);
+                                                 const CellSet& set, ThreadTeam* team = nullptr);
   /// Tiles without a sample.
   /// @param leading number of leading dimensions that tell tiles apart: all across rows, or those of a unit
   [[nodiscard]] static std::optional<Tiles> make(const RowEngine& engine, const RowHull& hull,
@@ -71,8 +72,9 @@ class Tiles {
   void find_shift(std::int64_t from, std::int64_t to, std::vector<std::int32_t>& shift) const;
 
   /// [tile] Equal numbers where `before` is equal, and so are the contents of the tile and of all that its
-  /// posts can meet. @param content [row] equal numbers for equal rows
-  [[nodiscard]] Numbers refined(const Numbers& before, const Numbers& content) const;
+  /// posts can meet. @param content [row] equal numbers for equal rows @param team may be null
+  [[nodiscard]] Numbers refined(const Numbers& before, const Numbers& content,
+                                ThreadTeam* team = nullptr) const;
 
  private:
   Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading);
@@ -91,7 +93,7 @@ class Tiles {
   void add_pairs(const PairTable& pairs);
   [[nodiscard]] Numbers number_choices(std::size_t t) const;
   void add_tables(std::int64_t tile, Numbers& list) const;
-  void number_tables();
+  void number_tables(ThreadTeam* team);
   [[nodiscard]] Numbers contents_of_tiles(const Numbers& content) const;
   [[nodiscard]] double fraction_different(const Numbers& content) const;
 

@@ -301,14 +301,14 @@ class Projections::Builder {
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team,
                          const EqualWork& equal, bool keeps_masks)
     : grouping_(&grouping), words_(controller.engine->row_words()), equal_(equal) {
-  number_rows_of(*controller.invariant, equal.by_tables(), controller.engine->share());
+  number_rows_of(*controller.invariant, equal.by_tables(), controller.engine->share(), team);
   find_all(controller, team, nullptr, keeps_masks);
 }
 
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team,
                          const SilentRules& rules)
     : grouping_(&grouping), words_(controller.engine->row_words()) {
-  number_rows_of(*rules.cells, {}, controller.engine->share());
+  number_rows_of(*rules.cells, {}, controller.engine->share(), team);
   find_all(controller, team, &rules, false);
 }
 
@@ -351,11 +351,12 @@ std::span<const Word> Projections::Store::keep(std::span<const Word> list) {
 }
 
 /// Numbers the rows of K: equal rows get the number of the first of them.
-void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share) {
+void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share,
+                                 ThreadTeam& team) {
   const RowShare::Range run = own_rows(share, invariant.rows());
   number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
   const Tiles* const tiles = equal_.tiles;
-  if (tiles != nullptr) classes_ = tiles->refined(*equal.numbers, number_rows(invariant, share));
+  if (tiles != nullptr) classes_ = tiles->refined(*equal.numbers, number_rows(invariant, share), &team);
   const auto has = [&](std::int64_t row) { return has_cells(invariant, row); };
   for_each_with_first(tiles, classes_, run, has, [&](std::int64_t row, std::int64_t first) {
     if (first == row) found_.push_back({.row = row});

@@ -105,7 +105,8 @@ class Projections {
   [[nodiscard]] const Found& of(std::int64_t row) const {
     return found_[number_[static_cast<std::size_t>(row)] - 1];
   }
-  void number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share);
+  void number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share,
+                      ThreadTeam& team);
   [[nodiscard]] bool has_cells(const CellSet& invariant, std::int64_t row) const;
 
   const ActionGrouping* grouping_;
