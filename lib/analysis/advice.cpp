@@ -49,7 +49,7 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
   add(advise_on_numbering(answers.context), all);
   add(advise_on_unseen_motion(answers.context,
                               finds_invariance ? answers.get<Invariance>().invariant : answers.context.safe,
-                              search),
+                              team, search),
       all);
   return all;
 }
@@ -75,7 +75,7 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
     add(advise_on_units(answers.context.spec, motion), all);
     add(advise_on_posts(answers.context, motion), all);
     add(advise_on_numbering(answers.context), all);
-    add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, search), all);
+    add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, team, search), all);
   }
   work["helpers"]["unseen motion"] = {{"reads", search.reads}, {"solutions", search.followed}};
   add(advise_on_answers(answers, team, work), all);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -53,9 +54,16 @@ std::int64_t index_near(const GridDimension& dimension, double real) {
   return index;
 }
 
-class PassageSearch {
+/// What was found at a cell: the first passage where the condition fails, else the first.
+struct Looked {
+  std::optional<Passage> found;
+  SearchWork work;
+};
+
+/// Looks for passages from one cell after another. One object a thread.
+class CellSearch {
  public:
-  PassageSearch(const AnalysisContext& context, const CellSet& kept)
+  CellSearch(const AnalysisContext& context, const CellSet& kept)
       : context_(context),
         abstraction_(*context.abstraction),
         grid_(abstraction_.grid),
@@ -64,52 +72,31 @@ class PassageSearch {
         is_safe_(context.spec.safe),
         at_(grid_.size()),
         chosen_(abstraction_.inputs.size()),
-        moved_(grid_.size()) {
-    for (const GridDimension& dimension : grid_.dimensions()) counts_.push_back(dimension.count);
-  }
+        moved_(grid_.size()) {}
 
-  std::optional<Passage> run() {
-    const std::int64_t all = grid_.points(), choices = abstraction_.inputs.count();
-    const std::int64_t far = step_through(all), far_input = step_through(choices);
-    std::int64_t number = 0, u = 0;
-    const std::int64_t fewest = std::clamp(all * kReadsOfCell, kFewestReads, kManyReads);
-    const std::int64_t most_reads = std::clamp(all / kCellsOfRead, fewest, kMostReads);
-    std::optional<Passage> first;
-    for (std::int64_t k = 0; k < all && work_.reads < most_reads && work_.followed < kMostFollowed; ++k) {
-      const std::int64_t x = place_of(number);
-      number = (number + far) % all;
-      ++work_.reads;
-      if (!kept_.test(x) || (context_.over && context_.over->test(x))) continue;
-      for (std::size_t i = 0; i < grid_.size(); ++i) at_[i] = grid_.index(x, i);
-      for (std::int64_t j = 0; j < std::min(kInputsOfCell, choices); ++j) {
-        u = (u + far_input) % choices;
-        if (!may_pass(u) || !is_admissible(x, u)) continue;
-        const auto found = follow(x, u);
-        if (found && found->is_unsafe) return found;
-        if (!first) first = found;
-      }
+  /// @param u before the first of the joint inputs to be tried, each `far_input` after the one before
+  Looked look(std::int64_t x, std::int64_t u, std::int64_t far_input) {
+    const std::int64_t choices = abstraction_.inputs.count();
+    Looked looked;
+    work_ = {};
+    for (std::size_t i = 0; i < grid_.size(); ++i) at_[i] = grid_.index(x, i);
+    for (std::int64_t j = 0; j < inputs_of_cell(choices); ++j) {
+      u = (u + far_input) % choices;
+      if (!may_pass(u) || !is_admissible(x, u)) continue;
+      std::optional<Passage> found = follow(x, u);
+      const bool is_unsafe = found && found->is_unsafe;
+      if (is_unsafe || !looked.found) looked.found = std::move(found);
+      if (is_unsafe) break;
     }
-    return first;
+    looked.work = work_;
+    return looked;
   }
 
-  [[nodiscard]] const SearchWork& work() const { return work_; }
+  [[nodiscard]] static std::int64_t inputs_of_cell(std::int64_t choices) {
+    return std::min(kInputsOfCell, choices);
+  }
 
  private:
-  /// Steps of this length, modulo `count`, come to all of them, those soon after one another far apart.
-  static std::int64_t step_through(std::int64_t count) {
-    auto step =
-        std::max<std::int64_t>(1, static_cast<std::int64_t>(kGoldenRatio * static_cast<double>(count)));
-    while (std::gcd(step, count) != 1) ++step;
-    return step;
-  }
-
-  /// The k-th of all cells.
-  [[nodiscard]] std::int64_t place_of(std::int64_t k) const {
-    std::int64_t place = 0;
-    for (std::size_t i = grid_.size(); i-- > 0; k /= counts_[i]) place += k % counts_[i] * grid_.stride(i);
-    return place;
-  }
-
   /// Whether a straight line from the cell `at_` to the middle of its post passes a cell outside S.
   bool may_pass(std::int64_t u) {
     double most = 0;
@@ -219,11 +206,122 @@ class PassageSearch {
   const CellSet& kept_;
   CellPosts posts_;
   Evaluator<double> is_safe_;
-  std::vector<std::int64_t> counts_;
   std::vector<std::int64_t> at_;      ///< [dimension] index of the cell that is looked at
   std::vector<std::int64_t> chosen_;  ///< [input] index of its value
   std::vector<double> moved_;         ///< [dimension] to the middle of the post
   std::int64_t parts_ = 0;            ///< of the straight line
+  SearchWork work_;
+};
+
+/// Looks at cells far from one another, in *rounds* that all threads share. What it finds, and the work that
+/// counts, is what one cell after the other would have found.
+class PassageSearch {
+ public:
+  PassageSearch(const AnalysisContext& context, const CellSet& kept, ThreadTeam& team)
+      : context_(context),
+        grid_(context.abstraction->grid),
+        kept_(kept),
+        team_(team),
+        far_(step_through(grid_.points())),
+        choices_(context.abstraction->inputs.count()),
+        far_input_(step_through(choices_)) {
+    for (int w = 0; w < team.size(); ++w) workers_.emplace_back(context, kept);
+  }
+
+  std::optional<Passage> run() {
+    const std::int64_t all = grid_.points();
+    const std::int64_t fewest = std::clamp(all * kReadsOfCell, kFewestReads, kManyReads);
+    const std::int64_t most_reads = std::clamp(all / kCellsOfRead, fewest, kMostReads);
+    const auto goes_on = [&] { return work_.reads < most_reads && work_.followed < kMostFollowed; };
+    std::optional<Passage> first;
+    std::int64_t size = 1;
+    for (std::int64_t begin = 0; begin < all && goes_on(); begin += std::ssize(round_)) {
+      look_at(std::min(size, all - begin));
+      bool is_any_followed = false;
+      for (std::size_t k = 0; k < round_.size() && goes_on(); ++k) {
+        Looked& looked = round_[k].looked;
+        work_.reads += 1 + looked.work.reads;
+        work_.followed += looked.work.followed;
+        is_any_followed = is_any_followed || looked.work.followed > 0;
+        if (looked.found && looked.found->is_unsafe) return looked.found;
+        if (!first) first = std::move(looked.found);
+      }
+      size = is_any_followed ? kLeastRound : std::min(2 * size, kMostRound);
+    }
+    return first;
+  }
+
+  [[nodiscard]] const SearchWork& work() const { return work_; }
+
+ private:
+  /// Cells of a round: few while solutions are followed, which takes long and may be in vain for those after
+  /// the last that counts.
+  static constexpr std::int64_t kLeastRound = 8, kMostRound = 4096;
+  /// Cells that one thread takes at a time.
+  static constexpr std::int64_t kCellsAtOnce = 64;
+
+  struct Place {
+    std::int64_t cell = 0;  ///< by its number in the order of the spec at first
+    bool is_kept = false;
+    std::int64_t input = 0;  ///< look()
+    Looked looked;
+  };
+
+  /// Steps of this length, modulo `count`, come to all of them, those soon after one another far apart.
+  static std::int64_t step_through(std::int64_t count) {
+    auto step =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(kGoldenRatio * static_cast<double>(count)));
+    while (std::gcd(step, count) != 1) ++step;
+    return step;
+  }
+
+  /// The k-th of all cells.
+  [[nodiscard]] std::int64_t place_of(std::int64_t k) const {
+    std::int64_t place = 0;
+    for (std::size_t i = grid_.size(); i-- > 0; k /= grid_[i].count)
+      place += k % grid_[i].count * grid_.stride(i);
+    return place;
+  }
+
+  /// round_ = the next places, looked at.
+  void look_at(std::int64_t size) {
+    round_.clear();
+    round_.resize(static_cast<std::size_t>(size));
+    for (Place& place : round_) {
+      place.cell = number_;
+      number_ = (number_ + far_) % grid_.points();
+    }
+    const auto each = [&](const auto& visit) {
+      team_.for_each(size, is_small(size) ? 1 : kCellsAtOnce, [&](ThreadTeam::Range range, int worker) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) visit(round_[at(k)], worker);
+      });
+    };
+    each([this](Place& place, int) {
+      place.cell = place_of(place.cell);
+      place.is_kept = kept_.test(place.cell) && !(context_.over && context_.over->test(place.cell));
+    });
+    for (Place& place : round_) {
+      if (!place.is_kept) continue;
+      place.input = input_;
+      input_ = (input_ + CellSearch::inputs_of_cell(choices_) * far_input_) % choices_;
+    }
+    each([this](Place& place, int worker) {
+      if (place.is_kept) place.looked = workers_[at(worker)].look(place.cell, place.input, far_input_);
+    });
+  }
+  [[nodiscard]] static bool is_small(std::int64_t size) { return size <= kLeastRound; }
+
+  const AnalysisContext& context_;
+  const UniformGrid& grid_;
+  const CellSet& kept_;
+  ThreadTeam& team_;
+  std::int64_t far_;  ///< from one cell to the next
+  std::int64_t choices_;
+  std::int64_t far_input_;
+  std::int64_t number_ = 0;
+  std::int64_t input_ = 0;
+  std::deque<CellSearch> workers_;
+  std::vector<Place> round_;
   SearchWork work_;
 };
 
@@ -266,12 +364,13 @@ std::string longest_way(const SystemSpec& spec, const Passage& passage) {
 
 }  // namespace
 
-Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept, SearchWork& work) {
+Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept, ThreadTeam& team,
+                                 SearchWork& work) {
   REQUIRES(context.engine && context.hull && !context.share &&
            kept.rows() == context.abstraction->grid.rows());
   const ProblemSpec& spec = context.spec;
   if (spec.dynamics.time == Time::discrete || spec.abstraction.between_samples) return {};
-  PassageSearch search(context, kept);
+  PassageSearch search(context, kept, team);
   const std::optional<Passage> found = search.run();
   work = search.work();
   if (!found) return {};

@@ -22,6 +22,6 @@ struct SearchWork {
 /// @param kept K, or S where K is not known
 /// @pre the context is set up, by one process; `kept` has its rows
 [[nodiscard]] Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept,
-                                               SearchWork& work);
+                                               ThreadTeam& team, SearchWork& work);
 
 }  // namespace coordreq
