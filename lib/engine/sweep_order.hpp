@@ -35,8 +35,12 @@ class SweepOrder {
   SweepOrder(const RowUnits& units, const RowHull& hull, const AliveRows& alive, std::int64_t first_unit,
              std::int64_t count, bool backwards, const RowSymmetry* symmetry, std::int64_t most_rows);
 
+  SweepOrder() = default;
+  SweepOrder(SweepOrder&&) = default;
+  SweepOrder& operator=(SweepOrder&&) = default;
   SweepOrder(const SweepOrder&) = delete;
   SweepOrder& operator=(const SweepOrder&) = delete;
+  ~SweepOrder() = default;
 
   [[nodiscard]] std::size_t size() const { return batches_.size(); }
   [[nodiscard]] const Batch& operator[](std::size_t batch) const { return batches_[batch]; }

@@ -21,8 +21,11 @@ class WaveRunner {
       : levels_(levels),
         share_(engine.share()),
         watch_(watch),
-        batch_(levels, engine, hull, limit, op, team, equal),
-        orders_{order(hull, equal.symmetry, false), order(hull, equal.symmetry, true)} {
+        batch_(levels, engine, hull, limit, op, team, equal) {
+    team.for_each(std::ssize(orders_), 1, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t k = range.begin; k < range.end; ++k)
+        orders_[static_cast<std::size_t>(k)] = order(hull, equal.symmetry, k == 1);
+    });
     if (share_ == nullptr) return;
     ghosts_.emplace(levels, engine, hull, batch_.dirty(), batch_.units().rows(), orders_,
                     batch_.first_unit());
