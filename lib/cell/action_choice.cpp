@@ -40,7 +40,8 @@ double known(double score) {
 
 }  // namespace
 
-ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics)
+ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics,
+                             KeptInputs& controller)
     : problem_(problem),
       policy_(policy),
       delay_(problem.delay()),
@@ -52,6 +53,7 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
                    [beyond = problem.safe_beyond](std::int64_t cell) { return beyond->test(cell); }),
       posts_(*problem.abstraction),
       inputs_(*problem.spec, posts_, sets()),
+      controller_(&controller),
       classes_(input_classes(*problem.spec, problem.abstraction->inputs, *problem.partition)),
       margin_(problem.spec->safe),
       nominal_(*problem.spec, *problem.abstraction, dynamics),
@@ -77,6 +79,10 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
     if (agent.prefer) prefer_.back().emplace(*agent.prefer);
   }
   for (const DisturbanceSpec& w : problem.spec->disturbances) middle_.emplace_back((w.lower + w.upper) / 2);
+  const std::vector<std::uint32_t> in_margin = problem.spec->safe.variables();
+  for (std::size_t i = 0; i < problem.spec->states.size(); ++i) {
+    if (contains(in_margin, problem.spec->state_slot(i))) states_of_margin_.push_back(i);
+  }
   find_nominal();
 }
 
@@ -109,7 +115,7 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
   CellPolicy& cell_policy = *cell_policies_[turn.policy];
   const AnswerPolicy& policy = problem_.policies[turn.policy];
   compared_ = policy.is_anywhere ? problem_.values.at(policy.delay) : delay_;
-  const Numbers& admissible = delay_[at(cell)] < 0 ? kNoInputs : inputs_.of(cell);
+  const Numbers& admissible = controller(cell);
   const Numbers& together = cell_policy.together(cell, admissible);
   if (together.empty() && !policy.is_anywhere) return std::nullopt;
   choices_.clear();
@@ -124,6 +130,13 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
   }
   if (policy_ == Policy::random) return choose_randomly(random);
   return policy_ == Policy::adversarial ? choose_worst(next) : choose_preferred(cell, measured);
+}
+
+const std::vector<std::int64_t>& ActionChooser::controller(std::int64_t cell) {
+  if (delay_[at(cell)] < 0) return kNoInputs;
+  posts_.move_to(cell);  // policies look at posts too
+  const Numbers* const known = controller_->find(cell);
+  return known != nullptr ? *known : controller_->keep(cell, inputs_.of(cell));
 }
 
 std::int64_t ActionChooser::choose_randomly(RandomStream& random) const {
@@ -164,17 +177,37 @@ std::int64_t ActionChooser::choose_worst(NextStates& next) {
   return worst.size() == 1 ? worst.front() : smallest_margin(next, worst);
 }
 
+/// Of all candidates that lead to the same values where the margin looks the one with the smallest number.
+ActionChooser::Numbers ActionChooser::of_different_margin(NextStates& next, const Numbers& candidates) const {
+  constexpr std::int64_t kUnknown = -1;
+  std::map<Numbers, std::int64_t> first;
+  for (const std::int64_t u : candidates) {
+    Numbers key;
+    if (!next.is_known(u)) key.push_back(kUnknown);
+    for (const std::size_t i : states_of_margin_) {
+      if (next.is_known(u)) key.push_back(next.inputs_of(i, u));
+    }
+    const auto [entry, is_new] = first.try_emplace(std::move(key), u);
+    if (!is_new) entry->second = std::min(entry->second, u);
+  }
+  Numbers result;
+  for (const auto& [key, u] : first) result.push_back(u);
+  return result;
+}
+
 std::int64_t ActionChooser::smallest_margin(NextStates& next, const Numbers& candidates) {
+  const ProblemSpec& spec = *problem_.spec;
   return smallest(
-      candidates,
+      of_different_margin(next, candidates),
       [&](std::int64_t u) {
         if (!next.is_known(u)) return -outward::kInfinity;
-        fill_approximately(next, u);
+        for (const std::size_t i : states_of_margin_)
+          doubles_[spec.state_slot(i)] = next.state(i, u).approximate;
         return margin_.approximate(doubles_);
       },
       [&](std::int64_t u) {
         if (!next.is_known(u)) return -outward::kInfinity;
-        fill(next, u);
+        for (const std::size_t i : states_of_margin_) slots_[spec.state_slot(i)] = next.state(i, u).value;
         return margin_.value(slots_);
       });
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "answers/one_cell/admissible_inputs.hpp"
+#include "answers/one_cell/kept_inputs.hpp"
 #include "answers/one_cell/policy.hpp"
 #include "cell/lossy_network.hpp"
 #include "cell/margin.hpp"
@@ -71,7 +72,9 @@ struct Nature {
 ///   counts as infinite.
 class ActionChooser {
  public:
-  ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics);
+  /// @param controller C, as far as it is kept: of `problem`, whatever its partition and policies
+  /// @pre unchecked: all outlive this object
+  ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics, KeptInputs& controller);
 
   /// Whether a policy, by its place among LoopProblem::policies, holds in a cell.
   [[nodiscard]] bool holds(std::size_t policy, std::int64_t cell) {
@@ -107,6 +110,8 @@ class ActionChooser {
   using Numbers = std::vector<std::int64_t>;
 
   [[nodiscard]] AdmissibleInputs::Sets sets();
+  /// C(x), none outside K.
+  [[nodiscard]] const Numbers& controller(std::int64_t cell);
 
   [[nodiscard]] std::int64_t choose_randomly(RandomStream& random) const;
   [[nodiscard]] std::int64_t choose_worst(NextStates& next);
@@ -116,6 +121,7 @@ class ActionChooser {
   void for_each_choice(const Visit& visit) const;
   [[nodiscard]] std::int64_t delay_after(NextStates& next, std::int64_t u) const;
   [[nodiscard]] std::int64_t smallest_margin(NextStates& next, const Numbers& candidates);
+  [[nodiscard]] Numbers of_different_margin(NextStates& next, const Numbers& candidates) const;
   [[nodiscard]] std::int64_t smallest_preference(const std::vector<std::int32_t>& agents,
                                                  const Numbers& candidates);
   void find_nominal();
@@ -131,10 +137,12 @@ class ActionChooser {
   MembersByCell safe_beyond_;
   CellPosts posts_;
   AdmissibleInputs inputs_;
+  KeptInputs* controller_;
   std::vector<std::unique_ptr<CellPolicy>> cell_policies_;
   std::vector<InputClass> classes_;
   std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
   Margin margin_;
+  std::vector<std::size_t> states_of_margin_;  ///< on which it depends
   std::vector<std::optional<PointValue>> prefer_;  ///< by agent
   NextStates nominal_;
   std::vector<Rational> middle_;    ///< of each disturbance

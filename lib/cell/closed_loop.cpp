@@ -53,7 +53,7 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
     : problem_(problem),
       options_(options),
       dynamics_(*problem.spec),
-      chooser_(problem, options.policy, dynamics_),
+      chooser_(problem, options.policy, dynamics_, controller_),
       next_(*problem.spec, *problem.abstraction, dynamics_),
       margin_(problem.spec->safe),
       slots_(problem.spec->slot_count()),

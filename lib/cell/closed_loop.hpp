@@ -147,6 +147,7 @@ class ClosedLoop {
   LoopProblem problem_;
   LoopOptions options_;
   PointDynamics dynamics_;
+  KeptInputs controller_;
   ActionChooser chooser_;
   NextStates next_;
   Margin margin_;

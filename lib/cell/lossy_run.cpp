@@ -31,7 +31,7 @@ std::vector<std::shared_ptr<ActionChooser>> ClosedLoop::choosers_of_modes() {
     }
     std::shared_ptr<ActionChooser>& chooser =
         known[network_mode.partition->canonical + (is_safest ? " " + std::to_string(mode) : "")];
-    if (!chooser) chooser = std::make_shared<ActionChooser>(of_mode, options_.policy, dynamics_);
+    if (!chooser) chooser = std::make_shared<ActionChooser>(of_mode, options_.policy, dynamics_, controller_);
     result.push_back(chooser);
   }
   return result;

@@ -13,7 +13,8 @@
 namespace coordreq {
 
 /// The next states from one point under one disturbance and any joint input. What depends only on few inputs
-/// is computed once for each of their values, when it is asked for.
+/// is computed once for each of their values, when it is asked for. Where a state is measured follows from
+/// doubles with a bound on their error, unless that leaves two cells: most exact values are never needed.
 class NextStates {
  public:
   struct Value {
@@ -39,6 +40,8 @@ class NextStates {
              std::span<const Rational> error, std::int64_t cell);
 
   [[nodiscard]] const Value& state(std::size_t i, std::int64_t u);
+  /// A number for the values of the inputs that state `i` depends on: if it is equal, so is the next state.
+  [[nodiscard]] std::int64_t inputs_of(std::size_t i, std::int64_t u) const;
   /// Where the next state is measured, as locate() has it; `beyond` if it is not known.
   [[nodiscard]] Place place(std::int64_t u);
   /// All states are known under `u`.
@@ -49,6 +52,21 @@ class NextStates {
   [[nodiscard]] double followed(std::int64_t u);
 
  private:
+  /// A dimension in doubles.
+  struct Axis {
+    bool is_quick = false;  ///< cells of it may be found by doubles
+    double first = 0, step = 1, highest = 0;  ///< `highest`: the last index
+    double error = 0;                         ///< of the measurement
+  };
+  struct Entry {
+    Value value;  ///< without `value` and `approximate` unless exact
+    bool is_exact = false;
+  };
+
+  /// At least where the state is measured.
+  [[nodiscard]] Entry& entry(std::size_t i, std::int64_t u);
+  [[nodiscard]] std::optional<std::int64_t> index_by_estimate(std::size_t i);
+  void find_exactly(std::size_t i, std::int64_t u, Value& result);
   [[nodiscard]] std::optional<Rational> next(std::size_t i, std::int64_t u);
 
   const SystemSpec* spec_;
@@ -56,9 +74,12 @@ class NextStates {
   PointDynamics* dynamics_;
   std::int64_t cell_ = 0;
   std::vector<Rational> slots_;
+  std::vector<double> doubles_;  ///< nearest to `slots_`
   std::vector<Rational> error_;
-  std::vector<std::unordered_map<std::int64_t, Value>> values_;  ///< by state, then the number of its inputs
-  std::vector<UniformGrid> axes_;                                ///< each dimension as a grid of its own
+  std::vector<std::unordered_map<std::int64_t, Entry>> entries_;  ///< by state, then inputs_of()
+  std::vector<std::vector<double>> input_values_;
+  std::vector<UniformGrid> axes_;  ///< each dimension as a grid of its own
+  std::vector<Axis> quick_;
 };
 
 }  // namespace coordreq

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <map>
 
@@ -11,6 +12,7 @@
 #include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/forbidden_choices.hpp"
+#include "answers/one_cell/kept_inputs.hpp"
 #include "answers/plan.hpp"
 #include "answers/silence/fields.hpp"
 #include "answers/silence/policy.hpp"
@@ -201,10 +203,14 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
   const double samples = static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1);
   constexpr double kBytesOfInput = 64;  // what a thread knows of each at a cell
+  const double lists = 1 + (options.is_lossy && spec.network ? static_cast<double>(spec.network->modes.size()) : 0);
+  const double of_list = std::min(static_cast<double>(KeptInputs::kMostBytes),
+                                  cells * (KeptInputs::kBytesOfList + 8 * static_cast<double>(results.inputs().count())));
   const double tables = options.blind ? LoadedTables::size(results) : 0;
   return {.once = results.reading_bytes() + tables + of_cell * cells + abstraction_bytes(results) +
                   2 * samples * (sample + step),
-          .of_thread = kBytesOfPostThread + kBytesOfInput * static_cast<double>(results.inputs().count())};
+          .of_thread = kBytesOfPostThread + kBytesOfInput * static_cast<double>(results.inputs().count()) +
+                       lists * of_list};
 }
 
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
@@ -328,12 +334,17 @@ std::string outcome_name(Outcome outcome) {
 }
 
 std::vector<Outcome> outcomes(const ProblemSpec& spec) {
-  std::vector<Outcome> result = {Outcome::completed, Outcome::left_safely, Outcome::left_invariant,
-                                 Outcome::no_action, Outcome::not_followed};
-  if (spec.silence)
-    result.insert(result.end(), {Outcome::left_safe_set, Outcome::stuck, Outcome::broke_promise});
-  if (spec.goal) result.insert(result.end(), {Outcome::reached_goal, Outcome::late});
-  if (may_forbid_choices(spec)) result.push_back(Outcome::not_allowed);
+  std::vector<Outcome> result;
+  const auto add = [&result](bool is_possible, std::initializer_list<Outcome> some) {
+    for (const Outcome outcome : some) {
+      if (is_possible) result.push_back(outcome);
+    }
+  };
+  add(true, {Outcome::completed, Outcome::left_safely, Outcome::left_invariant, Outcome::no_action,
+             Outcome::not_followed});
+  add(spec.silence.has_value(), {Outcome::left_safe_set, Outcome::stuck, Outcome::broke_promise});
+  add(spec.goal.has_value(), {Outcome::reached_goal, Outcome::late});
+  add(may_forbid_choices(spec), {Outcome::not_allowed});
   return result;
 }
 

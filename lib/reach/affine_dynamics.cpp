@@ -45,4 +45,19 @@ std::optional<SampledRow> AffineDynamics::map_row(std::size_t state,
   return row;
 }
 
+std::optional<SampledPoint> AffineDynamics::point_row(std::size_t state,
+                                                      const std::vector<Rational>& slots) const {
+  if (has_limit(state)) return std::nullopt;
+  return spec_->dynamics.time == Time::discrete ? map_point(state, slots) : flow_point(state, slots);
+}
+
+std::optional<SampledPoint> AffineDynamics::map_point(std::size_t state,
+                                                      const std::vector<Rational>& slots) const {
+  const std::optional<AffineForm> form = affine_form(*spec_, state, dependencies_[state], slots);
+  if (!form || form->lower != form->upper) return std::nullopt;
+  return SampledPoint{.coefficient = {form->state.begin(), form->state.end()},
+                      .disturbance = {form->disturbance.begin(), form->disturbance.end()},
+                      .constant = form->lower};
+}
+
 }  // namespace coordreq

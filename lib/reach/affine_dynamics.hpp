@@ -18,6 +18,14 @@ struct SampledRow {
   bool exact = true;  ///< [lower, upper] is the exact hull, both ends attained; else it is rounded outward
 };
 
+/// The same under disturbances that are constant in a period:
+/// x_i(tau) = sum_j coefficient[j] * x_{moving[j]}(0) + sum_l disturbance[l] * w_l + constant.
+struct SampledPoint {
+  std::vector<Rational> coefficient;
+  std::vector<Rational> disturbance;
+  Rational constant;
+};
+
 /// Whether `stop` limits are part of the dynamics, or cannot be reached.
 enum class Limits : std::uint8_t { obeyed, ignored };
 
@@ -43,6 +51,11 @@ class AffineDynamics {
   [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots,
                                               Limits limits = Limits::obeyed) const;
 
+  /// @param slots as in row() @returns nothing where row() returns nothing, or if its constant part is no single
+  ///   value @throws SpecError as row() does
+  [[nodiscard]] std::optional<SampledPoint> point_row(std::size_t state,
+                                                      const std::vector<Rational>& slots) const;
+
   /// Where the state is at any time in [0, tau] under continuous time: x_i(t) is in the convex hull of the
   /// rows' values, for every initial state. The first row is x_i(0), and for integrators (x' = c + w) the
   /// hull is exact.
@@ -59,6 +72,10 @@ class AffineDynamics {
                                                   const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<SampledRow> flow_row(std::size_t state,
                                                    const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::optional<SampledPoint> map_point(std::size_t state,
+                                                      const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::optional<SampledPoint> flow_point(std::size_t state,
+                                                       const std::vector<Rational>& slots) const;
 
   const SystemSpec* spec_;
   std::vector<Dependencies> dependencies_;

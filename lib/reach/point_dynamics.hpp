@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "expression/evaluate.hpp"
@@ -41,14 +45,35 @@ class PointDynamics {
   /// discrete time 0.
   [[nodiscard]] double followed(std::size_t i) const;
 
+  struct Estimate {
+    double value = 0;
+    double error = 0;  ///< at most that far from what next() finds
+  };
+  /// next() in doubles where the sampled map is affine; nothing elsewhere. @param doubles nearest to `slots`
+  [[nodiscard]] std::optional<Estimate> estimate(std::size_t i, const std::vector<Rational>& slots,
+                                                 const std::vector<double>& doubles);
+
  private:
+  /// Rows that are kept, of each state: what agents choose among comes again at every step.
+  static constexpr std::size_t kMostRows = 512;
+
+  struct Row {
+    std::optional<SampledPoint> exact;  ///< nothing where the state has none
+    bool has_doubles = false;  ///< the following are nearest to `exact`, with full precision
+    double constant = 0;
+    std::vector<std::pair<std::uint32_t, double>> summands = {};  ///< slot, what it is multiplied by
+  };
+
+  [[nodiscard]] const Row& row(std::size_t i, const std::vector<Rational>& slots);
+  [[nodiscard]] Row find_row(std::size_t i, const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<Rational> exact_next(std::size_t i, const std::vector<Rational>& slots);
   [[nodiscard]] std::optional<Rational> approximate_next(std::size_t i, const std::vector<Rational>& slots);
   [[nodiscard]] std::optional<double> double_next(std::size_t i);
 
   const SystemSpec* spec_;
-  std::unique_ptr<SystemSpec> pinned_;  ///< the spec with each disturbance as a single value
   AffineDynamics affine_;
+  std::vector<std::map<std::vector<Rational>, Row>> rows_;  ///< [state][values of its parameters and inputs]
+  std::vector<Rational> key_;
   std::vector<std::unique_ptr<PointFlow>> flows_;  ///< by state, made when needed
   std::vector<std::size_t> positions_;             ///< of a state among the moving ones of its flow
   std::vector<double> doubles_;

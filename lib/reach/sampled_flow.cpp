@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "reach/absolute_integral.hpp"
 #include "reach/affine_dynamics.hpp"
@@ -55,6 +56,26 @@ std::optional<SampledRow> AffineDynamics::flow_row(std::size_t state,
     if (!absolute.exact && radius != 0) result.exact = false;
   }
   return result;
+}
+
+std::optional<SampledPoint> AffineDynamics::flow_point(std::size_t state,
+                                                       const std::vector<Rational>& slots) const {
+  if (std::optional<SampledRow> constant = constant_row(state, slots))
+    return SampledPoint{.coefficient = std::move(constant->coefficient),
+                        .disturbance = std::vector<Rational>(dependencies_[state].disturbances.size()),
+                        .constant = constant->lower};
+  const std::optional<NilpotentFlow> flow = nilpotent_flow(*spec_, state, dependencies_[state], slots);
+  if (!flow || flow->lower != flow->upper) return std::nullopt;
+  const Rational& tau = spec_->dynamics.period;
+  const Eigen::Index terms = flow->rows.rows();
+  const RationalVector weights = exponential_terms(tau, terms + 1);
+  const RationalRow coefficient = product(weights.head(terms).transpose(), flow->rows);
+  SampledPoint point{.coefficient = {coefficient.begin(), coefficient.end()},
+                     .disturbance = {},
+                     .constant = product(weights.tail(terms).transpose(), flow->lower).value()};
+  for (std::size_t l = 0; l < dependencies_[state].disturbances.size(); ++l)
+    point.disturbance.push_back(integral_of(flow->kernel(l), tau));
+  return point;
 }
 
 }  // namespace coordreq

@@ -30,7 +30,8 @@ std::string ladder(const std::string& prefer_of_a = "", const std::string& prefe
 std::optional<std::int64_t> chosen(const LoopFixture& loop, Policy policy, const Rational& x,
                                    bool coordinated, std::uint64_t seed = 1) {
   PointDynamics dynamics(loop.spec());
-  ActionChooser chooser(loop.problem(), policy, dynamics);
+  KeptInputs controller;
+  ActionChooser chooser(loop.problem(), policy, dynamics, controller);
   NextStates next(loop.spec(), loop.abstraction(), dynamics);
   const std::vector<Rational> state{x};
   const std::vector<Rational> error{Rational(0)};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "answers/one_cell/cell_members.hpp"
+#include "answers/one_cell/kept_inputs.hpp"
 
 namespace coordreq {
 namespace {
@@ -16,19 +17,24 @@ class SafestPolicy : public CellPolicy {
 
   bool holds(std::int64_t /*cell*/) override { return true; }
   const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
-    posts_.move_to(cell);
-    risks_.clear();
-    for (const std::int64_t u : admissible) risks_.push_back(worst(u));
-    chosen_.clear();
-    if (risks_.empty()) return chosen_;
-    const std::int32_t most = std::max(most_(cell), *std::ranges::min_element(risks_));
-    for (std::size_t i = 0; i < admissible.size(); ++i) {
-      if (risks_[i] <= most) chosen_.push_back(admissible[i]);
-    }
-    return chosen_;
+    const Numbers* const known = safest_.find(cell);
+    return known != nullptr ? *known : safest_.keep(cell, safest(cell, admissible));
   }
 
  private:
+  [[nodiscard]] Numbers safest(std::int64_t cell, const Numbers& admissible) {
+    posts_.move_to(cell);
+    risks_.clear();
+    for (const std::int64_t u : admissible) risks_.push_back(worst(u));
+    if (risks_.empty()) return {};
+    const std::int32_t most = std::max(most_(cell), *std::ranges::min_element(risks_));
+    Numbers chosen;
+    for (std::size_t i = 0; i < admissible.size(); ++i) {
+      if (risks_[i] <= most) chosen.push_back(admissible[i]);
+    }
+    return chosen;
+  }
+
   /// The greatest risk in f(x,u), as bits. No post of C(x) is blocked.
   [[nodiscard]] std::int32_t worst(std::int64_t u) {
     std::vector<IndexRange> box;
@@ -48,7 +54,7 @@ class SafestPolicy : public CellPolicy {
   CellPosts& posts_;
   CellValue after_, most_;
   std::vector<std::int32_t> risks_;  ///< [position in C(x)]
-  Numbers chosen_;
+  KeptInputs safest_;
 };
 
 }  // namespace
