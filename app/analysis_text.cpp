@@ -32,9 +32,13 @@ std::string sizes(const Json& summary, const ProblemSpec& spec) {
   std::vector<std::int64_t> points, values;
   for (const StateSpec& state : spec.states) points.push_back(state.grid.count);
   for (const InputSpec& input : spec.inputs) values.push_back(static_cast<std::int64_t>(input.values.size()));
-  return fmt::format("{}: {} cells, {} joint inputs\n", text_of(summary["name"]),
-                     product(points, number_of(summary["cells"])),
-                     product(values, number_of(summary["joint_inputs"])));
+  const auto counted = [](std::int64_t count, const char* what) {
+    return std::string(what) + (count == 1 ? "" : "s");
+  };
+  const std::int64_t all_cells = number_of(summary["cells"]), all_inputs = number_of(summary["joint_inputs"]);
+  return fmt::format("{}: {} {}, {} {}\n", text_of(summary["name"]), product(points, all_cells),
+                     counted(all_cells, "cell"), product(values, all_inputs),
+                     counted(all_inputs, "joint input"));
 }
 
 /// In how many cells D steps are more than they can do without, and in how many they are all of it, or more.

@@ -28,9 +28,9 @@ if(COORDREQ_STATIC_HDF5)
       IMPORTED_LOCATION ${HDF5_HL_ARCHIVE} INTERFACE_LINK_LIBRARIES PkgConfig::HDF5)
   endif()
 endif()
-# Ball arithmetic of the verifier, and the solver of stiff plants in simulations; none has a pkg-config file.
+# Ball arithmetic of the verifier; neither has a pkg-config file.
 set(names_of_flint-arb flint)  # FLINT 3 has taken Arb in, with its headers in a folder
-foreach(library flint flint-arb sundials_cvode)
+foreach(library flint flint-arb)
   string(REPLACE - _ name ${library})
   find_library(${name}_LIBRARY NAMES ${library} ${names_of_${library}} REQUIRED)
   add_library(coordreq::${name} UNKNOWN IMPORTED GLOBAL)

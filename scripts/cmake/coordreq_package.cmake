@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-h5p
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcoordreq-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libgmp-dev, libmpfr-dev, libflint-dev, libflint-arb-dev, libsundials-dev, libhdf5-dev, libdeflate-dev, zlib1g-dev, nettle-dev, libfmt-dev, nlohmann-json3-dev, pkg-config")
+    "libgmp-dev, libmpfr-dev, libflint-dev, libflint-arb-dev, libhdf5-dev, libdeflate-dev, zlib1g-dev, nettle-dev, libfmt-dev, nlohmann-json3-dev, pkg-config")
 
 
 # Under the one line that describes the project.
