@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/look_ahead.hpp"
+#include "analysis/standing.hpp"
 #include "analysis/unseen_motion.hpp"
 #include "answers/context/answer.hpp"
 #include "answers/invariance/answer.hpp"
@@ -51,6 +52,7 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
                               finds_invariance ? answers.get<Invariance>().invariant : answers.context.safe,
                               team, search),
       all);
+  if (finds_invariance) add(advise_on_standing(answers.context, answers.get<Invariance>().invariant), all);
   return all;
 }
 
@@ -76,9 +78,11 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
     add(advise_on_posts(answers.context, motion), all);
     add(advise_on_numbering(answers.context), all);
     add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, team, search), all);
+    add(advise_on_standing(answers.context, answers.get<Invariance>().invariant), all);
   }
+  const bool creeps = !all.empty() && all.back().kind == "standing";
   work["helpers"]["unseen motion"] = {{"reads", search.reads}, {"solutions", search.followed}};
-  add(advise_on_answers(answers, team, work), all);
+  add(advise_on_answers(answers, creeps, team, work), all);
   for (const Answer& answer : all_answers()) {
     if (answer.advise != nullptr) add(answer.advise(answers), all);
   }

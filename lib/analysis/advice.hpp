@@ -37,8 +37,9 @@ namespace coordreq {
 /// that would help. To find these, one rule, disturbance, error or step after the other is relaxed on a copy
 /// with at most some 10^5 cells, within a fixed amount of work: the same on every machine. A relaxed problem
 /// that cannot be analysed is passed over. @pre K and the layers are there
+/// @param creeps advise_on_standing() has said so: then a finer grid is not what helps
 /// @param work takes what the trials did: `helpers/advice` with `trials` and `work`, about a nanosecond each
-[[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team, Json& work);
+[[nodiscard]] Warnings advise_on_answers(const Answers& answers, bool creeps, ThreadTeam& team, Json& work);
 
 /// All that is known without the answer: from all posts where they are few, else from some of them.
 /// @param motion of the spec @param posts of look_ahead()

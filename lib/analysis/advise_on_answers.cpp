@@ -67,6 +67,25 @@ void relax_sides(const ProblemSpec& spec, std::vector<Relaxation>& all) {
   relax_together(begin, "all sides saturate", all);
 }
 
+/// Cells with a face at a limit that stops a state, so that no cell holds both what stands and what moves.
+void relax_limits(const ProblemSpec& spec, std::vector<Relaxation>& all) {
+  const std::size_t begin = all.size();
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    const StateSpec& state = spec.states[i];
+    const bool above = state.below != Outside::stop;
+    if (above && state.above != Outside::stop) continue;
+    all.push_back({fmt::format("half-open cells of {} have a face at its {} limit", state.name,
+                               above ? "upper" : "lower"),
+                   [i, above](ProblemSpec& copy) {
+                     copy.abstraction.cells = Cells::half_open;
+                     GridSpec& grid = copy.states[i].grid;
+                     const Rational half = grid.step / 2;
+                     grid.first = above ? Rational(grid.first + half) : Rational(grid.first - half);
+                   }});
+  }
+  relax_together(begin, "all limits are at faces of half-open cells", all);
+}
+
 void relax_disturbances(const ProblemSpec& spec, std::vector<Relaxation>& all) {
   const std::size_t begin = all.size();
   for (std::size_t i = 0; i < spec.disturbances.size(); ++i) {
@@ -124,6 +143,7 @@ void relax_rules(const ProblemSpec& spec, std::vector<Relaxation>& all) {
 std::vector<Relaxation> relaxations(const ProblemSpec& spec) {
   std::vector<Relaxation> all;
   relax_sides(spec, all);
+  relax_limits(spec, all);
   relax_disturbances(spec, all);
   relax_rules(spec, all);
   relax_grid(spec, all);
@@ -239,8 +259,11 @@ std::string place_of_trials(const CoarseCopy& copy) {
                      copy.factor);
 }
 
-constexpr std::string_view kAskExplain =
-    "; a finer grid may (--refine 4), and 'coordreq explain' shows what goes wrong at a state";
+/// What to do where nothing helped. @param creeps as of advise_on_answers()
+std::string_view hint(bool creeps) {
+  return creeps ? "; 'coordreq explain' shows what goes wrong at a state"
+                : "; a finer grid may (--refine 4), and 'coordreq explain' shows what goes wrong at a state";
+}
 
 /// The changes that would help, as the end of a sentence. @param otherwise is added if there are none
 std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault, std::string_view otherwise,
@@ -262,7 +285,7 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
 
 }  // namespace
 
-Warnings advise_on_answers(const Answers& answers, ThreadTeam& team, Json& work) {
+Warnings advise_on_answers(const Answers& answers, bool creeps, ThreadTeam& team, Json& work) {
   REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
   const ProblemSpec& spec = answers.context.spec;
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
@@ -273,7 +296,7 @@ Warnings advise_on_answers(const Answers& answers, ThreadTeam& team, Json& work)
       const bool is_unsafe = answers.context.safe_cells == 0;
       return {{"empty", is_unsafe ? "/safe" : "",
                fmt::format("the {} set is empty on this grid{}", is_unsafe ? "safe" : "invariance",
-                           remedies(spec, p, fault, is_unsafe ? "" : kAskExplain, team, work))}};
+                           remedies(spec, p, fault, is_unsafe ? "" : hint(creeps), team, work))}};
     }
     if (fault == Fault::no_silence) silent.push_back(p);
   }
@@ -285,7 +308,7 @@ Warnings advise_on_answers(const Answers& answers, ThreadTeam& team, Json& work)
        fmt::format("with the partition {}{} no state tolerates even one step without coordination on this "
                    "grid{}",
                    partitions[silent.front()].name, others,
-                   remedies(spec, silent.front(), Fault::no_silence, kAskExplain, team, work))}};
+                   remedies(spec, silent.front(), Fault::no_silence, hint(creeps), team, work))}};
 }
 
 }  // namespace coordreq

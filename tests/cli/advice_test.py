@@ -155,14 +155,50 @@ class Cases(Case):
         self.write("spec.json", spec)
         return json.loads(self.run_program("analyze", "spec.json", "--json", "-o", "out.h5").stdout)["invariant"]
 
-    def test_parked_carts_are_kept_by_a_face_at_the_standstill(self):
-        """The figures of the page on modelling."""
+    def test_standing_vehicles_that_creep(self):
+        spec = self.merge()
+        (text,) = self.texts("analyze", spec, "standing")
+        self.assertRegex(text, r"^at p1 = \S+, v1 = 0, p2 = \S+, v2 = 0 nothing moves with a1 = -1, a2 = -1, yet the cell is not in")
+        self.assertIn('what helps is a face of half-open cells at the limit ("lower": -0.125, "origin": 0.125), v1 as a', text)
+        # The state that it names is in S, and no cell of K.
+        values = text[len("at ") : text.index(" nothing")].replace(" = ", "=").replace(", ", ",")
+        creeping = self.kept(spec)
+        answer = json.loads(self.run_program("query", "out.h5", "--at", values, "--json").stdout)
+        self.assertEqual((answer["safe"], answer["invariant"]), (True, False))
+        # What it says helps, does; the figures are those of the page on modelling.
         face = self.merge(vmax=1.875, lower=-0.125, origin=0.125)
-        figures = [self.kept(self.merge()), self.kept(self.merge(speed="saturate")), self.kept(face)]
+        self.assertEqual(self.texts("analyze", face, "standing"), [])
+        figures = [creeping, self.kept(self.merge(speed="saturate")), self.kept(face)]
         self.assertEqual(figures, [105089, 154892, 156495])
         page = (ROOT / "docs/how-to/modelling.md").read_text()
         for figure in figures:
             self.assertIn(f"{figure:,}", page)
+
+    def test_a_wall_at_a_standstill(self):
+        """K is empty on every grid; a face at the standstill, or a set point, helps, and no finer grid is advised."""
+        states = [
+            {"name": "d", "lower": 0, "upper": 10, "step": 1, "outside": {"below": "unsafe", "above": "saturate"}},
+            {"name": "v", "lower": 0, "upper": 2, "step": 1, "outside": "stop"},
+        ]
+        spec = {
+            "coordreq": 1, "name": "train", "states": states, "inputs": [{"name": "a", "values": [-1, 0]}],
+            "agents": [{"name": "one", "inputs": ["a"]}],
+            "dynamics": {"time": "continuous", "period": 1, "equations": {"d": "-v", "v": "a"}},
+            "safe": "true", "abstraction": {"cells": "half_open"},
+        }  # fmt: skip
+        for half in (1, 2, 4):
+            finer = dict(spec, states=[dict(state, step=1 / half) for state in states])
+            self.assertEqual(self.kept(finer), 0)
+            self.assertEqual(len(self.texts("analyze", finer, "standing")), 1)
+        (empty,) = self.texts("analyze", spec, "empty")
+        self.assertIn("half-open cells of v have a face at its lower limit", empty)
+        self.assertNotIn("a finer grid may", empty)
+        face = dict(spec, states=[states[0], dict(states[1], lower=-0.5, upper=1.5, origin=0.5)])
+        point = dict(spec, states=[states[0], {"name": "v", "lower": 0, "upper": 2, "step": 1, "discrete": True}])
+        point["dynamics"] = dict(spec["dynamics"], equations={"d": "-v"}, updates={"v": "max(0, v + a)"})
+        for helped in (face, point):
+            self.assertGreater(self.kept(helped), 0)
+            self.assertEqual(self.texts("analyze", helped, "standing"), [])
 
     def heating(self, **state):
         return spec_with(
