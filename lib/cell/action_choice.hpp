@@ -142,7 +142,7 @@ class ActionChooser {
   std::vector<InputClass> classes_;
   std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
   Margin margin_;
-  std::vector<std::size_t> states_of_margin_;  ///< on which it depends
+  std::vector<std::size_t> states_of_margin_;      ///< on which it depends
   std::vector<std::optional<PointValue>> prefer_;  ///< by agent
   NextStates nominal_;
   std::vector<Rational> middle_;    ///< of each disturbance

@@ -54,7 +54,7 @@ class NextStates {
  private:
   /// A dimension in doubles.
   struct Axis {
-    bool is_quick = false;  ///< cells of it may be found by doubles
+    bool is_quick = false;                    ///< cells of it may be found by doubles
     double first = 0, step = 1, highest = 0;  ///< `highest`: the last index
     double error = 0;                         ///< of the measurement
   };

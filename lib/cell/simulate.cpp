@@ -203,9 +203,11 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
   const double samples = static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1);
   constexpr double kBytesOfInput = 64;  // what a thread knows of each at a cell
-  const double lists = 1 + (options.is_lossy && spec.network ? static_cast<double>(spec.network->modes.size()) : 0);
-  const double of_list = std::min(static_cast<double>(KeptInputs::kMostBytes),
-                                  cells * (KeptInputs::kBytesOfList + 8 * static_cast<double>(results.inputs().count())));
+  const double lists =
+      1 + (options.is_lossy && spec.network ? static_cast<double>(spec.network->modes.size()) : 0);
+  const double of_list =
+      std::min(static_cast<double>(KeptInputs::kMostBytes),
+               cells * (KeptInputs::kBytesOfList + 8 * static_cast<double>(results.inputs().count())));
   const double tables = options.blind ? LoadedTables::size(results) : 0;
   return {.once = results.reading_bytes() + tables + of_cell * cells + abstraction_bytes(results) +
                   2 * samples * (sample + step),

@@ -51,7 +51,8 @@ class AffineDynamics {
   [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots,
                                               Limits limits = Limits::obeyed) const;
 
-  /// @param slots as in row() @returns nothing where row() returns nothing, or if its constant part is no single
+  /// @param slots as in row() @returns nothing where row() returns nothing, or if its constant part is no
+  /// single
   ///   value @throws SpecError as row() does
   [[nodiscard]] std::optional<SampledPoint> point_row(std::size_t state,
                                                       const std::vector<Rational>& slots) const;

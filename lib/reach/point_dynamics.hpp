@@ -59,7 +59,7 @@ class PointDynamics {
 
   struct Row {
     std::optional<SampledPoint> exact;  ///< nothing where the state has none
-    bool has_doubles = false;  ///< the following are nearest to `exact`, with full precision
+    bool has_doubles = false;           ///< the following are nearest to `exact`, with full precision
     double constant = 0;
     std::vector<std::pair<std::uint32_t, double>> summands = {};  ///< slot, what it is multiplied by
   };

@@ -116,6 +116,43 @@ TEST(PointDynamics, AnEscapeToInfinityHasNoNextState) {
   EXPECT_EQ(next(spec_of("continuous", "sqrt(2 - p)", "u"), 3, 1, 0)[0], std::nullopt);
 }
 
+TEST(PointDynamics, RowsThatAreKeptAreThoseOfTheirInputs) {
+  const SystemSpec spec = spec_of("discrete", "0.3*p - v + w", "u * v");
+  PointDynamics dynamics(spec);
+  for (int k = 0; k < 3; ++k) {
+    for (const int u : {-1, 0, 2}) {
+      EXPECT_EQ(dynamics.next(1, {1, 3, u, 0}), Rational(3 * u));
+      EXPECT_EQ(dynamics.next(0, {10, 3, u, k}), Rational(k));
+    }
+  }
+}
+
+TEST(PointDynamics, AnEstimateIsNoFartherOffThanItSays) {
+  const SystemSpec spec = spec_of("continuous", "v", "u + w");
+  PointDynamics dynamics(spec);
+  for (int k = 1; k < 200; ++k) {
+    const std::vector<Rational> slots{Rational(k) / 7, Rational(-1000000) / (3 * k), 2,
+                                      Rational(1) / (9 * k)};
+    std::vector<double> doubles;
+    for (const Rational& value : slots) doubles.push_back(nearest_double(value));
+    const auto found = dynamics.estimate(0, slots, doubles);
+    ASSERT_TRUE(found);
+    const Rational off = exact(found->value) - dynamics.next(0, slots).value();
+    EXPECT_LE(abs(off), exact(found->error));
+    EXPECT_LT(found->error, 1e-9);
+  }
+}
+
+TEST(PointDynamics, ThereIsNoEstimateWhereDoublesLosePrecision) {
+  const SystemSpec spec = spec_of("discrete", "p + v", "v");
+  PointDynamics dynamics(spec);
+  mpz_class large;
+  mpz_ui_pow_ui(large.get_mpz_t(), 2, 1060);
+  const std::vector<Rational> slots{1, Rational(1) / large, 0, 0};
+  EXPECT_FALSE(dynamics.estimate(0, slots, {1.0, nearest_double(slots[1]), 0.0, 0.0}));
+  EXPECT_FALSE(PointDynamics(spec_of("discrete", "sin(p)", "v")).estimate(0, slots, {1.0, 0.5, 0.0, 0.0}));
+}
+
 TEST(PointDynamics, ExactStatesMayNotGrowForEver) {
   const SystemSpec spec = spec_of("discrete", "p / 3", "v");
   PointDynamics dynamics(spec);
