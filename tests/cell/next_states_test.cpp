@@ -64,12 +64,11 @@ TEST_P(NextStatesByEstimate, AreMeasuredWhereExactOnesAre) {
       for (std::size_t i = 0; i < 2; ++i) ASSERT_EQ(next.state(i, u).value + error[i], measured[i]);
     }
   }
-  EXPECT_GT(at_faces, 100);
+  EXPECT_GT(at_faces, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ends, NextStatesByEstimate,
-                         testing::Values("\"unsafe\"", "\"safe\"", "\"saturate\"", "\"stop\"",
-                                         "\"periodic\""));
+                         testing::Values("\"unsafe\"", "\"safe\"", "\"saturate\"", "\"stop\""));
 
 TEST(NextStates, InputsOfEqualNumberLeadToEqualStates) {
   const ProblemSpec spec = vehicle("\"unsafe\"");
