@@ -52,7 +52,7 @@ std::string connection_text(const Json& partition, const Json& summary) {
                               : partition["truncated"] ? 0
                                                        : number_of(layers.back());
   return fmt::format(
-      "takes {} to establish: must stand already in {}{}, or be asked for at once in {}{} more",
+      "takes {} to establish: must exist already in {}{}, or be requested at once in {}{} more",
       duration(delay, summary), unknown ? "at most " : "", cells(partition["never_without_connection"]),
       partition["truncated"] && next >= layers.size() ? "at most " : "",
       grouped(static_cast<std::uint64_t>(std::max<std::int64_t>(
@@ -64,7 +64,7 @@ void add_layers(const AnswerPolicy& policy, const Json& entry, Facts& facts) {
   const Json& layers = entry["layers"];
   facts.emplace_back("  " + policy.words, shortened(layers.get<std::vector<std::int64_t>>()));
   const std::string for_ever = entry["truncated"] ? "an unknown number" : cells(entry["fixed_point"]);
-  facts.emplace_back("  " + policy.gain, fmt::format("for a step from {}, for ever from {}",
+  facts.emplace_back("  " + policy.gain, fmt::format("for one step from {}, indefinitely from {}",
                                                      cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }
 
@@ -78,8 +78,8 @@ std::string tolerated(const Json& partition, const Json& summary, int percent) {
     steps = static_cast<std::int64_t>(k);
   const bool is_last = steps + 1 == static_cast<std::int64_t>(layers.size());
   if (is_last && !partition["truncated"].get<bool>() && number_of(layers.back()) * 100 >= kept * percent)
-    return "for ever";
-  return steps == 0 ? "not a step" : "at least " + duration(steps, summary);
+    return "any number of steps";
+  return steps == 0 ? "not one step" : "at least " + duration(steps, summary);
 }
 
 void add_shares(const Json& partition, const Json& summary, Facts& facts) {
@@ -145,9 +145,9 @@ std::string partitions_table(const Json& summary, const AnswerPolicy& lead) {
       {"longest finite delay", Align::left,
        [&summary](const Json& entry) { return longest_delay_text(entry, summary); }}};
   if (!lead.name.empty()) {
-    columns.insert(columns.begin() + 1, {lead.gain + " for ever", Align::right, [&lead](const Json& entry) {
-                                           return unbounded_cells(entry[lead.name]);
-                                         }});
+    columns.insert(columns.begin() + 1,
+                   {lead.gain + " indefinitely", Align::right,
+                    [&lead](const Json& entry) { return unbounded_cells(entry[lead.name]); }});
   }
   if (delay > 0) {
     columns.push_back({"never without connection", Align::right,
@@ -176,8 +176,9 @@ std::string sets_text(const Json& summary, const ProblemSpec& spec) {
   if (!tightness.is_null() && number_of(tightness["p99"]) > 1) {
     facts.emplace_back(
         "tightness",
-        fmt::format("{:.1f} % of sampled posts are more than a cell wider than solutions need, at most {}",
-                    100 * tightness["share"].get<double>(), cells(tightness["most"])));
+        fmt::format(
+            "{:.1f} % of sampled successor sets are more than a cell wider than solutions, at most {}",
+            100 * tightness["share"].get<double>(), cells(tightness["most"])));
   }
   return facts_text(facts);
 }

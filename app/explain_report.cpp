@@ -91,8 +91,8 @@ std::string silence_text(const Json& silence, const ProblemSpec& spec) {
   const std::string status = text_of(silence["silence_status"]);
   if (status == "not_safe") return "none: the cell is not safe";
   if (status == "not_invariant") return "none: no coordination keeps the system safe from here";
-  if (status == "not_in_silence_set") return "none: what comes after it does not keep the system safe";
-  if (status == "unbounded") return "unbounded: safe for ever";
+  if (status == "not_in_silence_set") return "none: the fallback rule does not keep the system safe";
+  if (status == "unbounded") return "unbounded: safe indefinitely";
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(silence["silence"]), spec);
 }
 
@@ -102,12 +102,12 @@ void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::st
   std::vector<std::string> parts;
   for (const Json& entry : silence["classes"]) {
     const bool is_all = entry["permitted"] == entry["total"];
-    const std::string what = entry["permitted"] == 0 ? "nothing"
-                             : is_all                ? "anything"
+    const std::string what = entry["permitted"] == 0 ? "no action"
+                             : is_all                ? "any action"
                                                      : text_of(entry["actions"]);
     parts.push_back(fmt::format("{} {}", line_of(entry["name"]), what));
   }
-  text.push_back(fmt::format("While they are silent the agents may do here: {}.", listed_words(parts)));
+  text.push_back(fmt::format("During silence the rule permits here: {}.", listed_words(parts)));
   if (silence["way_out"].is_null()) return;
   for (std::string& sentence : story_sentences(as_silence_requirement(found), spec))
     text.push_back(std::move(sentence));
@@ -127,15 +127,15 @@ std::string classes_are(const Json& freedom) {
 /// Adds the actions that are left to the classes, with their meaning.
 void add_freedom(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
   const Json& freedom = found["freedom"];
-  text.push_back(fmt::format("Of their actions the controller leaves {} here.", classes_are(freedom)));
+  text.push_back(fmt::format("Actions that the controller permits here: {}.", classes_are(freedom)));
   const std::int64_t alone = number_of(freedom["alone"]), together = number_of(freedom["together"]);
   if (alone == together) {
-    text.push_back("Whatever they pick of these keeps the next state in the invariance set.");
+    text.push_back("Every independent choice of these keeps the next state in the invariance set.");
   } else {
     const bool has_rule = spec.controller.allow || spec.controller.file;
     text.push_back(fmt::format(
-        "Picked alone that makes {} joint actions, of which {} {} the next state in the "
-        "invariance set.",
+        "If each class chooses independently, {} joint actions are possible; {} of them {} the next state "
+        "in the invariance set.",
         grouped(freedom["alone"]), grouped(freedom["together"]), has_rule ? "are allowed and keep" : "keep"));
   }
 }
@@ -144,11 +144,11 @@ void add_neighbour(const Json& found, const ProblemSpec& spec, std::vector<std::
   const Json& other = found["freer_is_shorter"];
   if (other.is_null()) return;
   const std::string delay = other["delay_status"] == "unbounded"
-                                ? "silence may last for ever"
+                                ? "the delay is unbounded"
                                 : "the delay is " + steps_text(number_of(other["delay"]), spec);
   text.push_back(
-      fmt::format("At {} {}, with {} instead of {}: the controller leaves agents every action that can "
-                  "still be made up for together, so that more freedom can mean less silence.",
+      fmt::format("At {} {}, with {} instead of {}: the controller permits every action that joint "
+                  "coordination can still correct, so a larger action set can shorten the delay.",
                   values_text(other["state"]), delay, count_of(number_of(other["alone"]), "joint action"),
                   grouped(found["freedom"]["alone"])));
 }
@@ -157,13 +157,13 @@ void add_remedies(const Json& found, const ProblemSpec& spec, std::vector<std::s
   for (const Json& entry : found["remedies"]) {
     const std::string much =
         entry["delay_status"] == "unbounded"
-            ? "no silence would be too long"
-            : fmt::format("at least {} would be tolerated", steps_text(number_of(entry["delay"]), spec));
-    text.push_back(fmt::format("If \"allow\" left {} only {} here, {}.", line_of(entry["class"]),
+            ? "the delay would be unbounded"
+            : fmt::format("the delay would be at least {}", steps_text(number_of(entry["delay"]), spec));
+    text.push_back(fmt::format("If \"allow\" permitted {} only {} here, {}.", line_of(entry["class"]),
                                values_text(entry["inputs"]), much));
   }
   if (found["remedies"].empty())
-    text.push_back("No class alone can lengthen this by keeping to one action here.");
+    text.push_back("No restriction of one class to a single action here makes the delay longer.");
 }
 
 /// The way out as a requirement has it, so that the story is told the same way.
@@ -176,16 +176,13 @@ std::vector<std::string> sentences_of(const Json& found, const ProblemSpec& spec
   const std::string status = text_of(found["delay_status"]);
   if (status == "not_safe") return {"The cell is not safe."};
   if (found.value("over", false))
-    return {"The goal is reached here, and with it the task ends: nothing that follows matters."};
+    return {"The goal is reached here and the task ends: later states do not matter."};
   if (!found["way_out"].is_null()) text = story_sentences(as_requirement(found), spec);
   if (status == "not_invariant") return text;
   if (status == "unbounded")
-    text.emplace_back(
-        "Whatever the classes do alone of what is admissible to them, all cells that can follow tolerate "
-        "any silence again.");
+    text.emplace_back("Every independent choice leads only to cells with unbounded delay.");
   if (status == "at_least")
-    text.emplace_back(
-        "\"max_delay\" ended the search, so that there may be no way out of the invariance set.");
+    text.emplace_back("\"max_delay\" ended the search, so there may be no path out of the invariance set.");
   add_freedom(found, spec, text);
   if (found["way_out"].is_null()) return text;
   add_neighbour(found, spec, text);
@@ -198,7 +195,7 @@ std::string delay_text(const Json& found, const ProblemSpec& spec) {
   if (status == "not_safe") return "none: the cell is not safe";
   if (status == "not_invariant") return "none: on this grid no coordination keeps the system safe from here";
   if (found.value("over", false)) return "unbounded: the task is over here";
-  if (status == "unbounded") return "unbounded: safe without coordination for ever";
+  if (status == "unbounded") return "unbounded: safe without coordination indefinitely";
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(found["delay"]), spec);
 }
 
@@ -264,9 +261,11 @@ std::string explanation_text(const Json& explanation, const ProblemSpec& spec) {
                  {"delay", delay_text(explanation, spec)}};
   const bool has_silence = explanation.contains("silence");
   if (has_silence) facts.emplace_back("silence", silence_text(explanation["silence"], spec));
-  std::string text = facts_text(facts) + way_text("the shortest way out", as_requirement(explanation), spec);
+  std::string text = facts_text(facts) +
+                     way_text("shortest path out of the invariance set", as_requirement(explanation), spec);
   if (has_silence)
-    text += way_text("the shortest way out of silent agents", as_silence_requirement(explanation), spec);
+    text += way_text("shortest path under the communication-loss rule", as_silence_requirement(explanation),
+                     spec);
   text += "\n";
   for (const Json& sentence : explanation["sentences"]) text += text_of(sentence) + "\n";
   return text;

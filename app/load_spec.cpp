@@ -44,7 +44,7 @@ void check_length(std::uintmax_t bytes, std::uintmax_t held, const std::string& 
 void declare_settings(Options& options, std::vector<SpecSetting>& settings) {
   options.repeatable(
       settings, "--set", "PATH=VALUE",
-      "Take another value in the spec, as constants.R=0.7 or states.0.step=0.02; may be repeated",
+      "Replace a value of the spec, e.g. constants.R=0.7 or states.0.step=0.02; may be repeated",
       parse_setting);
   options.option("--refine", "N", "Divide the steps of all states that are not discrete by N, after --set",
                  [&settings](const auto& text, const auto& option) {

@@ -8,20 +8,20 @@ namespace coordreq {
 namespace {
 
 constexpr const char* kDescription = R"(.PP
-Several agents share a safety task. While they can talk to each other they agree on their actions; when the
-connection is lost each of them acts alone.
+Several agents share a safety task. While they are connected they coordinate their actions; during silence each of
+them chooses alone.
 .B coordreq
-computes for how long they may stay silent, from every cell of a grid over the state space, before safety needs
-them to agree again.
+computes how long they may be silent, from every cell of a grid over the state space, before they must coordinate
+again to stay safe.
 .PP
 It reads a model of the system, a SPEC in JSON, and writes one file of RESULTS, an HDF5 file that opens as
-netCDF\-4. The other commands check a spec or read results. What was asked for goes to standard output; progress,
+netCDF\-4. The other commands check a spec or read results. Answers go to standard output; progress,
 warnings and errors go to standard error. An error is one line that says what was found, where, and what was
 expected.
 )";
 
 constexpr const char* kExamples = R"(.PP
-A spec to begin with, and its analysis:
+A spec to start from, and its analysis:
 .PP
 .RS 4
 .nf
@@ -30,7 +30,7 @@ coordreq analyze first.json
 .fi
 .RE
 .PP
-The whole analysis of a spec, written to circle.h5; what is known at a state; and a check of the file by an
+The whole analysis of a spec, written to circle.h5; the results for a state; and a check of the file by an
 independent method:
 .PP
 .RS 4
@@ -41,7 +41,7 @@ coordreq verify circle.h5
 .fi
 .RE
 .PP
-The answer for several values in the spec, and what one of them costs, cell by cell:
+The answer for several values of the spec, and the delay that one of them costs, cell by cell:
 .PP
 .RS 4
 .nf

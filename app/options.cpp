@@ -102,14 +102,15 @@ void declare_threads(Options& options, int& threads, const char* description) {
 void declare_common(Options& options, CommonOptions& common, const CommonUse& use) {
   if (use.threads)
     declare_threads(options, common.threads,
-                    "Threads to work with (default: all processors that the process may use)");
+                    "Number of threads (default: all processors that the process may use)");
   if (use.memory)
-    options.option(common.max_memory, "--max-memory", "SIZE",
-                   "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",
-                   memory_size);
+    options.option(
+        common.max_memory, "--max-memory", "SIZE",
+        "Memory limit, e.g. 500M or 1.5G; larger work is refused (default: the memory of the machine)",
+        memory_size);
   if (!use.answer) return;
   options.flag(common.json, "--json", "Print one JSON document instead of text");
-  options.flag(common.quiet, "--quiet", "No text summary and no progress");
+  options.flag(common.quiet, "--quiet", "No text summary, no progress");
 }
 
 void declare_results(Options& options, std::string& path) {

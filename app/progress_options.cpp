@@ -8,11 +8,11 @@ namespace coordreq {
 void declare_progress(Options& options, ProgressOptions& progress) {
   options.option(
       progress.mode, "--progress", "auto|log|none",
-      "auto: a bar on a terminal, elsewhere a line a minute, but for --quiet; log: more lines (default: "
-      "auto)",
+      "auto: a bar on a terminal, otherwise one line per minute (none with --quiet); log: more lines "
+      "(default: auto)",
       OneOf<ProgressMode>{
           {{"auto", ProgressMode::automatic}, {"log", ProgressMode::log}, {"none", ProgressMode::none}}});
-  options.option("--progress-every", "SECONDS", "Between two lines (default: 10 of the log, else 60)",
+  options.option("--progress-every", "SECONDS", "Time between two lines (default: 10 with log, otherwise 60)",
                  [&progress](const auto& text, const auto& option) {
                    if (progress.mode == ProgressMode::none)
                      throw UsageError("no lines are printed, expected --progress log", option);

@@ -102,19 +102,20 @@ class AnswerText {
     }
     const std::string side = text_of(outside["side"]);
     if (!answer_["safe"].is_null()) {
-      return fmt::format("outside: {} has left {} the domain, where the spec says that all is safe for ever",
-                         value, side);
+      return fmt::format(
+          "outside: {} has left {} the domain, where the spec says that the system is safe indefinitely",
+          value, side);
     }
     const Rational low = dimension.first - dimension.radius();
     const Rational high = dimension.point(dimension.count - 1) + dimension.radius();
-    return fmt::format("outside: {} lies {} the domain, {} in [{}, {}{}; nothing is known there", value, side,
-                       dimension.name, shown(low), shown(high), dimension.discrete ? "]" : ")");
+    return fmt::format("outside: {} lies {} the domain, {} in [{}, {}{}; the results do not cover it", value,
+                       side, dimension.name, shown(low), shown(high), dimension.discrete ? "]" : ")");
   }
 
   [[nodiscard]] std::string collision_text(const Json& time) const {
     if (time.is_null()) return "never, with coordination";
     if (time == 0) return "0 steps: not safe now";
-    return "perhaps within " + steps_text(time) + ", whatever is coordinated";
+    return "possibly within " + steps_text(time) + ", even with full coordination";
   }
 
   /// A value by its key, or the word that it means.

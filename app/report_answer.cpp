@@ -81,8 +81,8 @@ class PartitionAnswer {
                          count == 0 ? "s" : "");
     }
     return fmt::format(
-        "A connection takes {} to establish: in {} of the states that can be kept safe it must be asked "
-        "for at once, or exist already.",
+        "A connection takes {} to establish: in {} of the states that can be kept safe it must be "
+        "requested at once, or exist already.",
         time_text(delay, results_),
         count == 0        ? "none"
         : count == kept() ? "all"
@@ -101,7 +101,7 @@ class PartitionAnswer {
     if (!is_share(any, 90)) add(share_text(any, whole()), "for at least " + time_text(1, results_));
     for (const int percent : {90, 50, 10, 1})
       if (is_share(any, percent)) add(fmt::format("{} %", percent), bearable(percent));
-    return "<table><thead><tr><th scope=\"col\">So many</th><th scope=\"col\">may be "
+    return "<table><thead><tr><th scope=\"col\">Share</th><th scope=\"col\">may be "
            "silent</th></tr></thead><tbody>\n" +
            rows + "</tbody></table>\n";
   }
@@ -148,7 +148,7 @@ class PartitionAnswer {
     const auto enough = [&](std::uint64_t size) { return is_share(size, percent); };
     const auto& sizes = stored_.layer_sizes;
     const auto end = std::partition_point(sizes.begin(), sizes.end(), enough);
-    if (end == sizes.end() && !stored_.truncated()) return "for ever";
+    if (end == sizes.end() && !stored_.truncated()) return "indefinitely";
     return "for at least " + time_text(end - sizes.begin() - 1, results_);
   }
 
@@ -262,11 +262,11 @@ std::string fine_print(const ResultsReader& results) {
   const StoredAttributes& attributes = results.attributes();
   const auto cells = static_cast<std::uint64_t>(results.grid().cells());
   return fmt::format(
-      "<p>The states are looked at in {} cells of a grid, and a <em>state</em> here is such a cell. {} of "
+      "<p>The grid divides the domain into {} cells, and a <em>state</em> here is such a cell. {} of "
       "them are safe; from {} of these "
-      "the system can be kept safe for ever if all agents coordinate.</p>\n"
+      "the system can be kept safe indefinitely if all agents coordinate.</p>\n"
       "<p class=\"note\">Guarantee {}; for every disturbance, and whatever admissible actions the agents "
-      "choose on their own.</p>\n",
+      "choose independently.</p>\n",
       grouped(cells), grouped(attributes.safe_cells), grouped(attributes.invariant_cells),
       html_line(guarantee_of_file(attributes.guarantee, results.spec())));
 }

@@ -113,7 +113,7 @@ std::string safe_text(const ProblemSpec& spec) {
     html += ", where " + meant;
   html += ".";
   if (spec.controller.allow)
-    html += " The agents may only do what keeps to " + html_code(spec.controller.allow->text) + ".";
+    html += " The agents may only choose joint inputs with " + html_code(spec.controller.allow->text) + ".";
   return html + "</p>\n";
 }
 
@@ -137,9 +137,8 @@ std::string report_task(const ResultsReader& results) {
     html += fmt::format("<p class=\"lead\">{}</p>\n", html_text(spec.description));
   return html +
          fmt::format(
-             "<p>{} keep a system safe together and decide anew every {}. While they are connected they "
-             "agree on what they do; "
-             "when they are silent, each acts alone.</p>\n",
+             "<p>{} keep a system safe together and choose new actions every {}. While they are connected "
+             "they coordinate; during silence each chooses alone.</p>\n",
              agents_words(spec), every) +
          safe_text(spec);
 }

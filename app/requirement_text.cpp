@@ -80,15 +80,16 @@ std::string end_text(const Json& story) {
   const std::string end = text_of(story["end"]);
   if (end == "outside_safe_set") return "the state is no longer safe";
   if (end == "left_domain") return "the state leaves the domain, " + side_text(story["left_side"]);
-  if (end == "unsafe_between_samples") return "the way to the next sample is not safe";
-  if (end == "arrived") return "the goal is reached, too late";
-  if (end == "never_arrives") return "the state is one that came before: the goal need never be reached";
+  if (end == "unsafe_between_samples") return "the motion to the next sample is not safe";
+  if (end == "arrived") return "the goal is reached too late";
+  if (end == "never_arrives") return "the state repeats: the goal may never be reached";
   if (end == "time_lost") return "the state is not nearer to the goal";
-  if (end == "not_allowed") return "together they do what 'allow' forbids";
-  if (end == "no_common_action") return "some class has no action for all that it may see";
-  if (end == "outside_silence_set") return "what comes after silence is no longer safe";
-  if (end == "no_silent_action") return "the rules of silence leave some agent no action";
-  return "no action is allowed any more";
+  if (end == "not_allowed") return "their joint input is one that 'allow' forbids";
+  if (end == "no_common_action")
+    return "some class has no action that suits all cells that look the same to it";
+  if (end == "outside_silence_set") return "the fallback rule is no longer safe";
+  if (end == "no_silent_action") return "the communication-loss rule permits no action for some agent";
+  return "no joint input is allowed";
 }
 
 /// The story of agents who follow their rules, up to the state in which coordination cannot help any more.
@@ -99,16 +100,17 @@ std::vector<std::string> silent_sentences(const Json& entry, const ProblemSpec& 
   const std::int64_t later = count["afterwards"] + count["evasive"];
   const std::string end = end_text(story);
   if (later == 0)
-    return {fmt::format("Silent agents follow the rule, and after {} {}.", steps_text(count["silent"], spec),
-                        end)};
+    return {fmt::format("The agents follow the communication-loss rule, and after {} {}.",
+                        steps_text(count["silent"], spec), end)};
   std::vector<std::string> sentences;
   if (count["silent"] > 0)
-    sentences.push_back(fmt::format("Silent agents follow the rule, and after {} it is too late.",
-                                    steps_text(count["silent"], spec)));
-  sentences.push_back(fmt::format(
-      "{}, after {} {}.",
-      count["afterwards"] > 0 ? "With what they do from then on" : "Whatever all agents then do together",
-      steps_text(later, spec), end));
+    sentences.push_back(
+        fmt::format("The agents follow the communication-loss rule, and after {} it is too late.",
+                    steps_text(count["silent"], spec)));
+  sentences.push_back(
+      fmt::format("{}, after {} {}.",
+                  count["afterwards"] > 0 ? "With the fallback rule" : "Even if all agents then coordinate",
+                  steps_text(later, spec), end));
   return sentences;
 }
 
@@ -128,7 +130,7 @@ std::string nearest_text(const Json& entry, const ProblemSpec& spec) {
   const auto state = std::find_if(spec.states.begin(), spec.states.end(), is_meant);
   const std::string unit = state->unit.empty() ? "" : " " + printable(state->unit);
   const bool is_from = nearest["best"] == "large";
-  return fmt::format("  With {} {} {:.6g}{}{} and the other states as there, the delay is long enough.\n",
+  return fmt::format("  With {} {} {:.6g}{}{} and the other states unchanged, the delay is long enough.\n",
                      state->name, is_from ? "from" : "up to", nearest["value"].get<double>(), unit,
                      is_from ? " on" : "");
 }
@@ -149,7 +151,7 @@ std::string worst_key(const Json& entry) {
 std::string worst_text(const Json& kind, const Json& value, const Json& status, const ProblemSpec& spec) {
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
-  if (status == "not_in_silence_set") return "is not safe with what comes after silence";
+  if (status == "not_in_silence_set") return "is not safe with the fallback rule";
   if (status == "goal_cannot_be_forced") return "cannot be made to reach the goal";
   const RequirementTraits& traits = requirement_traits(kind.get<std::string>());
   const bool is_risk = traits.is_probability;
@@ -256,26 +258,25 @@ void add_seen(const Json& story, const ProblemSpec& spec, std::vector<std::strin
   const char* const set = !is_inside                                      ? "the safe set"
                           : first == "silent" && spec.silence->has_then() ? "the silence set"
                                                                           : "the invariance set";
-  const std::string seen =
-      story["seen"].is_null()
-          ? fmt::format("does not leave {} as far as it was followed", set)
-          : fmt::format("leaves {} after {}", set, steps_text(number_of(story["seen"]), spec));
+  const std::string seen = story["seen"].is_null() ? fmt::format("stayed in {} for all simulated steps", set)
+                                                   : fmt::format("left {} after {}", set,
+                                                                 steps_text(number_of(story["seen"]), spec));
   const std::string proven = steps_text(number_of(story["proven"]), spec);
-  sentences.push_back(
-      fmt::format("{}; the system itself, followed like that, {}.",
-                  is_inside ? "The grid proves " + proven : "On the grid that takes " + proven, seen));
+  sentences.push_back(fmt::format("{}. A nominal simulation from the first state {}.",
+                                  is_inside ? "Proven: " + proven : "On the grid this takes " + proven,
+                                  seen));
 }
 
 std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spec) {
   const Json& story = entry["counterexample"];
   const Json& steps = story["steps"];
-  if (steps.empty() && story["end"] == "outside_safe_set") return {"It is not safe to begin with."};
+  if (steps.empty() && story["end"] == "outside_safe_set") return {"The first state is not safe."};
   const auto count = [&steps](const char* action) {
     return std::count_if(steps.begin(), steps.end(),
                          [action](const Json& step) { return step["action"] == action; });
   };
   if (count("together") > 0)
-    return {fmt::format("All agents together take the shortest way, and after {} {}.",
+    return {fmt::format("All agents coordinate on the shortest path, and after {} {}.",
                         steps_text(count("together"), spec), end_text(story))};
   if (requirement_traits(entry["kind"].get<std::string>()).kind == RequirementKind::min_silence)
     return silent_sentences(entry, spec);
@@ -284,7 +285,7 @@ std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spe
   std::vector<std::string> sentences;
   if (alone > 0) {
     const std::string text =
-        fmt::format("Each {} does what is permitted to it alone, and after {}",
+        fmt::format("Each {} independently takes permitted actions, and after {}",
                     is_all_alone(entry, spec) ? "agent" : "class of agents", steps_text(alone, spec));
     if (evasive == 0 && story["end"] != "no_allowed_action")
       return {fmt::format("{} {}.", text, end_text(story))};
@@ -295,8 +296,8 @@ std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spe
     return sentences;
   }
   const char* const whatever = spec.controller.synthesis == Synthesis::maximal
-                                   ? "Whatever all agents then do together"
-                                   : "With what the controller then may choose";
+                                   ? "Even if all agents then coordinate"
+                                   : "With inputs that the controller may then choose";
   sentences.push_back(fmt::format("{}, after {} {}.", whatever, steps_text(evasive, spec), end_text(story)));
   return sentences;
 }

@@ -37,7 +37,7 @@ std::string heading(const Json& simulation, const ProblemSpec& spec) {
   if (simulation.contains("blind")) text += ", blind";
   if (simulation.contains("silent")) {
     const Json& silent = simulation["silent"];
-    text += ", silent " + (silent.is_null() ? "for ever" : "for " + count_of(number_of(silent), "step"));
+    text += ", silent " + (silent.is_null() ? "until the end" : "for " + count_of(number_of(silent), "step"));
   }
   if (is_disturbed(spec)) text += ", disturbance " + text_of(simulation["disturbance"]);
   return text + fmt::format(", seed {}\n", simulation["seed"].get<std::uint64_t>());
@@ -54,8 +54,8 @@ std::string outcome_text(const std::string& outcome) {
       {"not_allowed", "did what 'allow' forbids"},
       {"not_followed", "could not be followed"},
       {"left_safe_set", "left the safe set, later than promised"},
-      {"stuck", "could not go on by the rule, later than promised"},
-      {"broke_promise", "broke the promise of silence"}};
+      {"stuck", "had no action under the rule, later than promised"},
+      {"broke_promise", "left the safe set within the promised silence"}};
   return kTexts.at(outcome);
 }
 

@@ -28,7 +28,7 @@ std::int64_t steps_or_time(const std::string& text, const DynamicsSpec& dynamics
   constexpr std::int64_t kMost = INT32_MAX - 1;
   const std::string expected =
       dynamics.unit.empty() ? "a number of steps"
-                            : fmt::format("a number of steps, or a time as 2{}{}",
+                            : fmt::format("a number of steps, or a time, e.g. 2{}{}",
                                           is_time_unit(dynamics.unit) ? "" : " ", printable(dynamics.unit));
   const std::string own(trimmed(text));
   const std::optional<Rational> time = time_of(own, dynamics.unit);

@@ -39,7 +39,7 @@ std::vector<std::string> split_at_outer_commas(std::string_view text) {
 SpecSetting parse_setting(const std::string& text, const std::string& option) {
   const std::size_t equals = text.find('=');
   if (equals != 0 && equals != std::string::npos) return {text.substr(0, equals), text.substr(equals + 1)};
-  fail_value("PATH=VALUE, as constants.R=0.7", text, option);
+  fail_value("PATH=VALUE, e.g. constants.R=0.7", text, option);
 }
 
 Sweep parse_sweep(const std::string& text, const std::string& option) {
@@ -48,7 +48,7 @@ Sweep parse_sweep(const std::string& text, const std::string& option) {
     Sweep sweep{text.substr(0, equals), split_at_outer_commas(std::string_view(text).substr(equals + 1))};
     if (std::find(sweep.values.begin(), sweep.values.end(), "") == sweep.values.end()) return sweep;
   }
-  fail_value("PATH=VALUE,VALUE, as states.0.step=0.02,0.01", text, option);
+  fail_value("PATH=VALUE,VALUE, e.g. states.0.step=0.02,0.01", text, option);
 }
 
 std::vector<std::vector<SpecSetting>> combinations(const std::vector<Sweep>& sweeps) {

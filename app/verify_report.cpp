@@ -78,7 +78,7 @@ std::string confirmed_text(const Json& confirmed, const Json& work) {
   std::string text = fmt::format("confirmed: {} of {} reachable sets that are not exact\n",
                                  grouped(confirmed["reachable_sets"]), grouped(confirmed["of"]));
   if (work["left_open"] > 0)
-    text += fmt::format("the budget ended: {} were not looked at to the end, see --budget\n",
+    text += fmt::format("the budget ended: {} were not checked completely, see --budget\n",
                         grouped(work["left_open"]));
   return text;
 }
@@ -98,11 +98,11 @@ std::string basis_text(const Json& result) {
   if (basis == "exact") return "reachable sets: exact, from the corners of the cells\n";
   std::string text =
       basis == "stored"
-          ? "reachable sets: those stored in the file, which hold independent enclosures"
-          : "reachable sets: those of the analysis, computed anew, which hold independent enclosures";
+          ? "reachable sets: those stored in the file, which contain independent enclosures"
+          : "reachable sets: those of the analysis, computed anew, which contain independent enclosures";
   const auto borrowed = result["not_independent"].get<std::vector<std::string>>();
   if (!borrowed.empty())
-    text += fmt::format(" (but for {})", printable(fmt::format("{}", fmt::join(borrowed, ", "))));
+    text += fmt::format(" (except {})", printable(fmt::format("{}", fmt::join(borrowed, ", "))));
   return text + "\n";
 }
 
@@ -115,7 +115,7 @@ std::string verdict_cell(const Json& result) {
                                    : name;
   const bool is_one = !sampled || result["cells_checked"] == 1;
   return what + (is_one ? " holds" : " hold") +
-         (result["verdict"] == "holds" ? "" : ", apart from what is not confirmed");
+         (result["verdict"] == "holds" ? "" : ", except for what is not confirmed");
 }
 
 Json verification_json(const Verification& result, const std::string& path, double seconds, int threads) {

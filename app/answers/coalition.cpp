@@ -100,14 +100,14 @@ std::string coalitions_of_file(const Json& info) {
 std::string report_coalitions(const ResultsReader& results) {
   if (!results.has(paths::kCoalition) || results.attributes().invariant_cells == 0) return "";
   return fmt::format(
-             "<section aria-labelledby=\"coalition-title\">\n<h2 id=\"coalition-title\">Who must talk to "
-             "whom?</h2>\n<p>For {} without further contact between them, these groups of agents must be "
-             "connected: <code>a+b|c</code> means that <em>a</em> and <em>b</em> keep agreeing, and "
-             "<em>c</em> is alone. Each state has the cheapest partition that is enough.</p>\n",
+             "<section aria-labelledby=\"coalition-title\">\n<h2 id=\"coalition-title\">Who must "
+             "communicate with whom?</h2>\n<p>For {} without further contact between them, these groups of "
+             "agents must be "
+             "connected: <code>a+b|c</code> means that <em>a</em> and <em>b</em> coordinate, and "
+             "<em>c</em> chooses alone. Each state has the cheapest sufficient partition.</p>\n",
              html_line(steps_text(*results.spec().coordination.horizon, results.spec()))) +
          report_choices(results) +
-         "<p>A pair of agents is critical in a state where every cheapest network that is enough connects "
-         "the "
+         "<p>A pair of agents is critical in a state if every cheapest sufficient partition connects the "
          "two.</p>\n" +
          report_pairs(results) + "</section>\n";
 }

@@ -36,7 +36,7 @@ void add_goal_of_file(const Json& info, Facts& facts) {
   facts.emplace_back("goal", grouped(goal["cells"]) + task_end_text(goal));
   facts.emplace_back("goal can be forced", grouped(goal["winning"]));
   if (!goal["longest_arrival"].is_null())
-    facts.emplace_back("longest way to it", duration(goal["longest_arrival"], info));
+    facts.emplace_back("longest time to reach it", duration(goal["longest_arrival"], info));
 }
 
 /// How soon the goal can be forced, and from how many states silence costs no time.

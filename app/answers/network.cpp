@@ -35,10 +35,10 @@ std::string network_of_analysis(const Json& summary, const ProblemSpec& spec) {
                grouped(modes[mode]["cells"])});
   }
   return fmt::format(
-      "\nnetwork {}: {}\n{}{}  Beginning in mode {}, {} stay safe from {} of {}; whatever the mode is, from "
-      "{}.\n",
+      "\nnetwork {}: {}\n{}{}  Beginning in mode {}, {} stay safe from {} of {}; beginning in any mode, "
+      "from {}.\n",
       text_of(entry["kind"]), network_meaning(*spec.network), table.text(), more_modes(modes.size()),
-      text_of(entry["initial"]), entry["resynthesise"] ? "agents that take care" : "the agents",
+      text_of(entry["initial"]), entry["resynthesise"] ? "agents with robust re-synthesis" : "the agents",
       grouped(modes.front()["cells"]), cells(summary["invariant"]), grouped(entry["cells_in_every_mode"]));
 }
 
@@ -63,12 +63,12 @@ std::string report_network(const ResultsReader& results) {
                              network.modes[mode].partition.name, safe[mode], kept));
   }
   return fmt::format(
-             "<section aria-labelledby=\"network-title\">\n<h2 id=\"network-title\">On a network that "
-             "fails</h2>\n<div class=\"answer\"><p class=\"headline\">Agents {}stay safe from "
+             "<section aria-labelledby=\"network-title\">\n<h2 id=\"network-title\">On an unreliable "
+             "network</h2>\n<div class=\"answer\"><p class=\"headline\">Agents {}stay safe from "
              "<strong>{}</strong> of the states that can be kept safe, whatever the network does.</p>\n"
              "<p>The network: {}.</p></div>\n",
-             network.resynthesise ? "that take care because messages may be lost " : "",
-             share_text(safe.front(), kept), html_line(network_meaning(network))) +
+             network.resynthesise ? "with robust re-synthesis " : "", share_text(safe.front(), kept),
+             html_line(network_meaning(network))) +
          html_long_table({"Mode of the network", "Connected", "Safe states", "Share"}, rows) + "</section>\n";
 }
 

@@ -29,13 +29,16 @@ std::string number_or_dash(const Json& number) {
   return number.is_null() ? "-" : probability_text(number);
 }
 
-/// The rate as one of the unit of time, where there is a period with one.
-std::string rate_text(double rate, const ProblemSpec& spec) {
-  if (rate == 0) return "nothing";
+/// How fast it grows later; also by the unit of time, where there is a period with one.
+std::string growth_text(double rate, const ProblemSpec& spec) {
+  if (rate == 0) return "Beyond the horizon the risk does not grow.";
   const std::string& unit = spec.dynamics.unit;
-  if (unit.empty()) return fmt::format("{} a step", probability_text(rate));
-  return fmt::format("{} a step, {} per {}", probability_text(rate),
-                     probability_text(rate / nearest_double(spec.dynamics.period)), unit);
+  const std::string per_time =
+      unit.empty()
+          ? ""
+          : fmt::format(", {} per {}", probability_text(rate / nearest_double(spec.dynamics.period)), unit);
+  return fmt::format("Beyond the horizon the risk grows by at most {} per step{}.", probability_text(rate),
+                     per_time);
 }
 
 /// Where the network is at the first step, and the risk there.
@@ -48,8 +51,8 @@ std::string start_text(const Json& start, const ProblemSpec& spec) {
 }
 
 const char* coordinated_text(const ProblemSpec& spec) {
-  return spec.risk->is_safest ? "connected agents choose what is safest"
-                              : "connected agents choose anything that the controller allows";
+  return spec.risk->is_safest ? "connected agents choose the safest action"
+                              : "connected agents choose any action that the controller allows";
 }
 
 }  // namespace
@@ -73,11 +76,11 @@ std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
   const std::string more = modes.size() <= kMostModes
                                ? ""
                                : fmt::format("  ... and {} more modes\n", grouped(modes.size() - kMostModes));
-  return fmt::format("\nrisk within {}: {}\n{}{}{}  Later it grows by at most {}.\n",
+  return fmt::format("\nrisk within {}: {}\n{}{}{}  {}\n",
                      duration(entry["horizon"].get<std::int64_t>(), nearest_double(spec.dynamics.period),
                               spec.dynamics.unit),
                      coordinated_text(spec), table.text(), more, start_text(entry["start"], spec),
-                     rate_text(entry["rate"].get<double>(), spec));
+                     growth_text(entry["rate"].get<double>(), spec));
 }
 
 bool has_risk(const ProblemSpec& spec) {
@@ -94,7 +97,7 @@ std::string worst_risk(const Json& summary) {
 
 std::string risk_of_file(const Json& info) {
   if (!info.contains("risk")) return "";
-  return fmt::format("\nrisk within {}; later it grows by at most {} a step\n",
+  return fmt::format("\nrisk within {}; beyond, it grows by at most {} per step\n",
                      count_of(number_of(info["risk"]["horizon"]), "step"),
                      probability_text(info["risk"]["rate"]));
 }
@@ -103,12 +106,13 @@ std::string report_risk(const ResultsReader& results) {
   const ProblemSpec& spec = results.spec();
   if (!spec.risk || results.attributes().invariant_cells == 0) return "";
   return fmt::format(
-      "<section aria-labelledby=\"risk-title\">\n<h2 id=\"risk-title\">How likely it is to fail</h2>\n"
-      "<p>The pictures show, as powers of ten, the greatest probability to leave the states that can be kept "
-      "safe within {}, where {} and the network loses steps by chance. Later it grows by at most {}. What "
-      "the agents do is the worst case, and so are disturbances.</p>\n</section>\n",
+      "<section aria-labelledby=\"risk-title\">\n<h2 id=\"risk-title\">How likely is it to become "
+      "unsafe?</h2>\n"
+      "<p>The pictures show, in powers of ten, an upper bound on the probability of leaving the states that "
+      "can be kept safe, within {}. Here {}, and the network loses steps at random. {} Actions of the agents "
+      "and disturbances are the worst case.</p>\n</section>\n",
       html_line(duration(spec.risk->horizon, nearest_double(spec.dynamics.period), spec.dynamics.unit)),
-      coordinated_text(spec), html_line(rate_text(results.number(paths::kRisk, "rate"), spec)));
+      coordinated_text(spec), html_line(growth_text(results.number(paths::kRisk, "rate"), spec)));
 }
 
 }  // namespace coordreq

@@ -163,13 +163,12 @@ Run declare_export(Options& options) {
                  as_typed);
   options.option(
       own->controller, "--controller", "safety|progress",
-      "scs: the controller that keeps the system in K (default), or that which comes nearer to the goal",
+      "scs: the controller that keeps the system in K (default), or the one that approaches the goal",
       OneOf<ControllerKind>{{{"safety", ControllerKind::safety}, {"progress", ControllerKind::progress}}});
   options.repeatable(own->slices, "--slice", "STATE=VALUE",
                      "csv, vtk: only the cells where a state has this value; may be repeated", as_typed);
   options.repeatable(own->projections, "--project", "STATE:KIND",
-                     "csv, vtk: the smallest or largest value along a state, min or max; may be repeated",
-                     as_typed);
+                     "csv, vtk: the minimum or maximum along a state, min or max; may be repeated", as_typed);
   declare_common(options, *own, {.answer = false});
   return [own] { return run(*own); };
 }

@@ -23,61 +23,61 @@ constexpr std::string_view kTemplate =
     R"json(// Two robots on one rail must stay 1 m apart. How long may they be silent?
 //
 //   coordreq validate FILE    checks the spec and prints sizes
-//   coordreq analyze FILE     answers, and writes NAME.h5
+//   coordreq analyze FILE     computes the answer and writes NAME.h5
 //
-// Change it into your own system, one part at a time. A line that begins with //? is a part that you may want:
-// take the mark away.
+// Change it into your own system, one part at a time. A line that begins with //? is an optional part: remove the
+// mark to use it.
 {
   SCHEMA"coordreq": 1,
   "name": "NAME",
   "description": "Two robots on one rail stay at least 1 m apart.",
 
-  // Numbers with a name, for use wherever there is a number or a formula.
+  // Named numbers, for use in numbers and formulas.
   "constants": { "gap": 1, "fastest": 1 },
 
-  // What the safety goal is about, each state on a grid of its own. A smaller step makes the answer sharper and the
-  // analysis longer. "outside" says what it means to leave the grid: here the robots stop at the ends of the rail.
+  // The states on which safety depends, each with its own grid. A smaller step gives a sharper answer and takes
+  // longer. "outside" gives the meaning of leaving the grid: here the robots stop at the ends of the rail.
   "states": [
     { "name": "p1", "lower": 0, "upper": 20, "step": 0.25, "unit": "m", "outside": "saturate" },
     { "name": "p2", "lower": 0, "upper": 20, "step": 0.25, "unit": "m", "outside": "saturate" }
   ],
 
-  // What is chosen anew in each period.
+  // The values that the agents choose in each period.
   "inputs": [
     { "name": "v1", "lower": "-fastest", "upper": "fastest", "step": "fastest/2", "unit": "m/s" },
     { "name": "v2", "lower": "-fastest", "upper": "fastest", "step": "fastest/2", "unit": "m/s" }
   ],
 
-  // What nobody chooses: it may take any value between the bounds, at any time. Use it in the equations.
+  // Unknown quantities, which may take any value between the bounds at any time. Use them in the equations.
   //? "disturbances": [ { "name": "wind", "lower": -0.1, "upper": 0.1 } ],
 
-  // Who chooses which inputs. While the agents can talk they choose together, else each on its own.
+  // The agents and their inputs. While connected, the agents choose together; otherwise each chooses alone.
   "agents": [
     { "name": "left", "inputs": ["v1"] },
     { "name": "right", "inputs": ["v2"] }
   ],
 
-  // How the states change: derivatives, or with "time": "discrete" the next values.
+  // The motion of the states: derivatives, or with "time": "discrete" the next values.
   "dynamics": {
     "time": "continuous",
     "period": 0.5, "unit": "s",
     "equations": { "p1": "v1", "p2": "v2" }
   },
 
-  // What must hold at all times.
+  // The safe states.
   "safe": "p2 - p1 >= gap",
 
-  // Cells without their upper faces: sharper than the default, "closed", where motions end on faces of cells.
-  // Safe at all times, not at the sampling instants alone.
+  // Cells without their upper faces: sharper than the default "closed" if motions end on faces of cells.
+  // Safety at all times, not only at the sampling instants.
   "abstraction": { "cells": "half_open", "between_samples": true },
 
   // A connection that takes two steps to establish:
   //? "coordination": { "connection_delay": 2 },
 
-  // A radio that loses at most one of any three messages, and agents that take care because of it:
+  // A radio that loses at most one of any three messages, and agents that restrict their actions because of it:
   //? "network": { "weakly_hard": { "misses": 1, "window": 3 }, "resynthesise": true },
 
-  // What you need. If it does not hold, the answer says how it goes wrong, and the exit code is 1.
+  // Your requirements. If one does not hold, the answer has a counterexample, and the exit code is 1.
   "requirements": [
     { "name": "2 s of silence, 8 m apart", "where": "p2 - p1 == 8", "min_delay_time": 2 }
   ]

@@ -106,15 +106,16 @@ Run declare_query(Options& options) {
   const auto own = std::make_shared<QueryOptions>();
   declare_results(options, own->results);
   options.option(own->at, "--at", "STATE",
-                 "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)",
+                 "The state, e.g. x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)",
                  as_typed);
   options.flag(own->extra, "--extra",
-               "Pass columns (JSON lines: keys) that name no state of standard input through to the answers");
+               "Pass columns (JSON lines: keys) that name no state through to the answers");
   options.flag(own->least, "--least",
-               "The least silence of the pairs of a fleet on standard input; a column pair is a label");
-  options.option(own->at_least, "--at-least", "N",
-                 "With --least: count pairs below N steps, or a time, e.g. 2s; exit code 1 if any is",
-                 as_typed);
+               "Minimum silence over the pairs of a fleet on standard input; a column pair is a label");
+  options.option(
+      own->at_least, "--at-least", "N",
+      "With --least: count the pairs below N steps, or a time, e.g. 2s; exit code 1 if there are any",
+      as_typed);
   options.option(own->partition, "--partition", "NAME", "With --least: partition (default: the only one)",
                  as_typed);
   declare_common(options, *own);

@@ -102,32 +102,31 @@ Run declare_simulate(Options& options) {
   const auto own = std::make_shared<SimulateOptions>();
   SimulationOptions& simulation = own->simulation;
   declare_results(options, own->results);
-  options.option(simulation.start, "--from", "STATE", "State to start from, as x1=0.1,x2=0", as_typed);
-  options.option(own->starts_anywhere, "--start", "random", "Start anywhere in the invariance set",
+  options.option(simulation.start, "--from", "STATE", "State to start from, e.g. x1=0.1,x2=0", as_typed);
+  options.option(own->starts_anywhere, "--start", "random", "Start at random states of the invariance set",
                  OneOf<bool>{{{"random", true}}});
   options.option(own->steps, "--steps", "N", "Length of a run: steps, or a time, e.g. 10min", as_typed);
   options.option(simulation.runs, "--runs", "N", "Number of runs (default: 1)", kCount);
-  options.option(simulation.seed, "--seed", "N", "Seed of all that is random (default: 1)",
+  options.option(simulation.seed, "--seed", "N", "Seed of the random numbers (default: 1)",
                  WholeNumber<std::uint64_t>{0, UINT64_MAX});
   options.option(
-      simulation.policy, "--policy", "random|adversarial|prefer", "How agents choose (default: random)",
+      simulation.policy, "--policy", "random|adversarial|prefer", "Policy of the agents (default: random)",
       OneOf<Policy>{
           {{"random", Policy::random}, {"adversarial", Policy::adversarial}, {"prefer", Policy::prefer}}});
   options.option(
       "--disturbance", "random|extremes|constant|VALUES",
-      "How it varies (default: random); VALUES: constant, as w1=0.1,w2=0",
+      "Disturbances (default: random); VALUES are constant, e.g. w1=0.1,w2=0",
       [&simulation](const auto& text, const auto& option) { read_disturbance(simulation, text, option); });
-  options.option("--until", "goal", "End runs where they reach the goal",
+  options.option("--until", "goal", "End runs when they reach the goal",
                  [&simulation](const auto& text, const auto& option) {
                    simulation.until_goal = OneOf<bool>{{{"goal", true}}}(text, option);
                  });
-  options.flag(simulation.is_lossy, "--lossy", "Lose steps as the numbers of the network say");
+  options.flag(simulation.is_lossy, "--lossy", "Lose steps with the probabilities of the network");
   options.flag(simulation.blind, "--blind",
-               "Agents that are silent go by what each class sees itself, with its silent table");
+               "During silence each class uses only the states that it sees, with its silent table");
   options.option_with_or_without(
       "--silent", "N",
-      "Agents do for N steps what the spec tells silent ones, and then what comes after; alone: until S is "
-      "left",
+      "Follow the communication-loss rule for N steps, then the fallback rule; without N, until S is left",
       [own = own.get()](const auto& text, const auto& /*option*/) {
         own->simulation.silent = true;
         if (!text.empty()) own->silent_steps = text;

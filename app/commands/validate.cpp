@@ -191,7 +191,7 @@ std::string report_text(const Json& report, const ProblemSpec& spec, bool is_ver
 Warning too_large_here(const SpecReport& report, std::uint64_t memory) {
   return {"memory", "/states",
           fmt::format("analyze needs about {}, and this machine has {}: motions and requirements were not "
-                      "looked at",
+                      "checked",
                       byte_size(report.memory_bytes), byte_size(memory))};
 }
 
@@ -248,15 +248,14 @@ Run declare_validate(Options& options) {
   const auto own = std::make_shared<ValidateOptions>();
   options.argument(own->spec, "SPEC", kSpecDescription);
   declare_settings(options, own->settings);
-  options.option(
-      own->ranks, "--ranks", "N",
-      "Also tell what the fullest of so many processes of coordreq-mpi would need, each with --threads",
-      WholeNumber<int>{1, kMostRanks});
+  options.option(own->ranks, "--ranks", "N",
+                 "Also estimate the fullest of N processes of coordreq-mpi, each with --threads",
+                 WholeNumber<int>{1, kMostRanks});
   options.option(own->posts, "--posts", "N",
-                 "Compute so many successor sets of a large problem, to find equations that are undefined "
+                 "Compute N successor sets of a large problem, to find equations that are undefined "
                  "somewhere (default: 1000)",
                  WholeNumber<std::int64_t>{1, 1'000'000'000});
-  options.flag(own->is_verbose, "--verbose", "Also show how tables and rows are kept");
+  options.flag(own->is_verbose, "--verbose", "Also show how tables and rows are stored");
   declare_common(options, *own);
   return [own] { return run(*own); };
 }

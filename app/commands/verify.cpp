@@ -57,13 +57,12 @@ ExitCode run(const VerifyArguments& arguments) {
 Run declare_verify(Options& options) {
   const auto arguments = std::make_shared<VerifyArguments>();
   declare_results(options, arguments->results);
-  options.option(arguments->sample, "--sample", "N",
-                 "Look at so many cells, the same ones each time (default: all)",
+  options.option(arguments->sample, "--sample", "N", "Check N cells, the same ones each time (default: all)",
                  WholeNumber<std::int64_t>{1, INT64_MAX});
   options.option(arguments->budget, "--budget", "SECONDS",
-                 "Processor time of each thread for enclosures; 0 confirms only exact posts (default: 60)",
+                 "Processor time of each thread for enclosures; 0 confirms only exact sets (default: 60)",
                  seconds);
-  options.flag(arguments->full, "--full", "Work out again, too, what takes many looks at all cells: risks");
+  options.flag(arguments->full, "--full", "Also recompute results that need many passes (risks)");
   options.flag(arguments->strict, "--strict", "Fail if something is not confirmed");
   declare_progress(options, arguments->progress);
   declare_common(options, *arguments);

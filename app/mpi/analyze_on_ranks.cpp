@@ -46,7 +46,7 @@ Run declare_analyze(Options& options, Ranks& ranks, const std::function<void()>&
   declare_files(options, *own);
   declare_checkpoint(options, own->checkpoint, "FOLDER");
   declare_progress(options, own->progress);
-  declare_threads(options, own->threads, "Threads that each rank works with (default: 1)");
+  declare_threads(options, own->threads, "Threads per rank (default: 1)");
   declare_common(options, *own, {.threads = false});
   return [own] {
     if (own->ranks->rank() != 0) {

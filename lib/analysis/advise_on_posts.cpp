@@ -136,7 +136,7 @@ std::string numbers_to_set(const ProblemSpec& spec, std::size_t state, const Sta
     return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
   };
   const double period = nearest_double(spec.dynamics.period) / moved.cells;
-  const std::string step = fmt::format(", as to {}", rough(moved.amount, spec.states[state].unit));
+  const std::string step = fmt::format(", e.g. to {}", rough(moved.amount, spec.states[state].unit));
   return spec.dynamics.time == Time::discrete
              ? step
              : fmt::format("{} or {}", step, rough(period, spec.dynamics.unit));
@@ -219,8 +219,7 @@ Warnings advise_on_posts(const AnalysisContext& context, const std::vector<State
   if (blocked.empty()) return found;
   found.push_back(
       {"blocked", "/states",
-       fmt::format("pairs of a safe cell and a joint input are blocked where the domain ends: {}; "
-                   "\"outside\" is \"unsafe\" there because the spec does not say what leaving means",
+       fmt::format("transitions leave the domain and count as unsafe, since \"outside\" is not set there: {}",
                    fmt::join(blocked, ", "))});
   return found;
 }

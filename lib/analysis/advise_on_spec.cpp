@@ -119,7 +119,7 @@ void advise_on_jumps(const ProblemSpec& spec, Warnings& found) {
   found.push_back(
       {"jump", "/safe",
        fmt::format("'safe' depends on {}, which {} at the sampling instants: between two samples "
-                   "{} as at the first of them, so that what moves with {} is not seen on its way; "
+                   "{} as at the first of them, so that motion with {} between the samples is not covered; "
                    "a continuous state with an equation moves all the time",
                    listed_words(names), is_one ? "jumps" : "jump", is_one ? "it counts" : "they count",
                    is_one ? "it" : "them")});

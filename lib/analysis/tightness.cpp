@@ -264,12 +264,14 @@ Warnings advise_on_tightness(const ProblemSpec& spec, const std::optional<Tightn
     const std::optional<double> after = excess_with(spec, remedy, widest);
     if (after && *after < before) helps.push_back(fmt::format("{} (to {:.3g})", remedy.text, *after));
   }
-  const std::string help =
-      helps.empty() ? "neither shorter periods, smaller steps nor more effort bring less by themselves"
-                    : fmt::format("what helps: {}", fmt::join(helps, ", "));
-  return {{"tightness", "/abstraction",
-           fmt::format("posts are wider than solutions need: the widest of a sample by {:.3g} cells; {}",
-                       before, help)}};
+  const std::string help = helps.empty()
+                               ? "no single change (shorter period, smaller steps, more effort) helps"
+                               : fmt::format("changes that help: {}", fmt::join(helps, ", "));
+  return {
+      {"tightness", "/abstraction",
+       fmt::format(
+           "successor sets are wider than simulated solutions: the widest of a sample by {:.3g} cells; {}",
+           before, help)}};
 }
 
 }  // namespace coordreq

@@ -374,14 +374,15 @@ Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& 
   const std::optional<Passage> found = search.run();
   work = search.work();
   if (!found) return {};
-  return {{"between_samples", "/abstraction",
-           fmt::format("safety is asked only at samples, every {}: from {}, with {}, the way to the next one "
-                       "{}, at {}, and {}; \"between_samples\": true asks for "
-                       "safety at all times",
-                       with_unit(nearest_double(spec.dynamics.period), spec.dynamics.unit),
-                       values_of(spec, found->begin), inputs_of(*context.abstraction, spec, found->input),
-                       found->is_unsafe ? "is not safe" : "passes cells outside the safe set",
-                       values_of(spec, found->there), longest_way(spec, *found))}};
+  return {
+      {"between_samples", "/abstraction",
+       fmt::format("safety is asked only at samples, every {}: from {}, with {}, the motion to the next one "
+                   "{}, at {}, and {}; \"between_samples\": true asks for "
+                   "safety at all times",
+                   with_unit(nearest_double(spec.dynamics.period), spec.dynamics.unit),
+                   values_of(spec, found->begin), inputs_of(*context.abstraction, spec, found->input),
+                   found->is_unsafe ? "is not safe" : "passes cells outside the safe set",
+                   values_of(spec, found->there), longest_way(spec, *found))}};
 }
 
 }  // namespace coordreq

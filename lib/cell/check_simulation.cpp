@@ -37,11 +37,12 @@ void check_blind(const ProblemSpec& spec, const SimulationOptions& options) {
     throw UsageError("'prefer' reads what agents do not see, expected random or adversarial with --blind",
                      "--policy");
   if (options.until_goal)
-    throw UsageError("agents that see only themselves do not go for the goal, expected --blind or --until",
+    throw UsageError("agents with own observations only do not pursue the goal, expected --blind or --until",
                      "--until");
   if (options.is_lossy)
     throw UsageError(
-        "agents that see only themselves know that a step is lost, not the mode; expected --blind or --lossy",
+        "agents with own observations only know that a step is lost, not the mode; expected --blind or "
+        "--lossy",
         "--lossy");
 }
 
@@ -49,9 +50,11 @@ void check_blind(const ProblemSpec& spec, const SimulationOptions& options) {
 void check_silent(const ProblemSpec& spec, const SimulationOptions& options) {
   if (!options.silent) return;
   if (!spec.silence)
-    throw UsageError("the spec does not say what silent agents do, expected the key 'silence'", "--silent");
+    throw UsageError("the spec has no communication-loss rule, expected the key 'silence'", "--silent");
   if (options.until_goal)
-    throw UsageError("silent agents do not go for the goal, expected --silent or --until", "--until");
+    throw UsageError(
+        "agents under the communication-loss rule do not pursue the goal, expected --silent or --until",
+        "--until");
   if (options.is_lossy)
     throw UsageError("the network says when steps are lost, expected --silent or --lossy", "--lossy");
   if (options.blind) throw UsageError("expected --silent or --blind, found both", "--blind");
@@ -91,12 +94,12 @@ void check_start(const ResultsReader& results, const std::vector<Rational>& stat
   }
   const std::int32_t steps = delays[static_cast<std::size_t>(location.cell)];
   if (steps < 0) {
-    throw UsageError(
-        steps == DelayLayers::kOutsideSafe ? "the start is not in the safe set"
-        : is_silent ? "the start is not in the silence set: what comes after silence is not safe from there"
-                    : "the start is not in the invariance set: on this grid not even coordination keeps "
-                      "the system safe from there",
-        "--from");
+    throw UsageError(steps == DelayLayers::kOutsideSafe ? "the start is not in the safe set"
+                     : is_silent
+                         ? "the start is not in the silence set: the fallback rule is not safe from there"
+                         : "the start is not in the invariance set: on this grid not even coordination keeps "
+                           "the system safe from there",
+                     "--from");
   }
 }
 

@@ -247,7 +247,7 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   } else if (InvariantCells(spec, start).count() == 0) {
     throw UsageError(spec.memory.empty()
                          ? "the invariance set is empty: there is no state to start from"
-                         : "the invariance set has no state with nothing remembered to start from",
+                         : "the invariance set has no state with an empty memory to start from",
                      "--start");
   }
   // Tubes are not stored.

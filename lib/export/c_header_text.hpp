@@ -26,8 +26,8 @@ inline constexpr char kNumbers[] = R"c(
 #define $M_CLASSES {class_count}
 
 /* Instead of a cell. */
-#define $M_OUTSIDE (-1)     /* outside the domain: nothing is known */
-#define $M_LEFT_SAFELY (-2) /* beyond a side where all is safe for ever */
+#define $M_OUTSIDE (-1)     /* outside the domain: not covered by the results */
+#define $M_LEFT_SAFELY (-2) /* beyond a side where the system is safe indefinitely */
 
 /* Instead of a countdown in steps. */
 #define $M_NEVER INT32_MAX             /* the classes never need to coordinate */
@@ -198,10 +198,10 @@ inline constexpr char kSilentOnly[] = R"c(
 )c";
 
 inline constexpr char kSilent[] = R"c(
-/* Whether class c may take its joint action a without a word, with so many steps of silence left ($M_NEVER: it
-   is for ever), by the states that it sees itself: of the others nothing is read. Beyond a side where all is
-   safe for ever every action is; with no step left, and outside the domain, none is. Of a class that sees all
-   states this is $P_allowed, which is not there with $M_SILENT_ONLY. */
+/* Whether class c may take its joint action a during silence, with this number of steps left ($M_NEVER:
+   unlimited). Only the states that the class sees are read. Beyond a side where the system is safe indefinitely
+   every action is permitted; with no step left, and outside the domain, none is. For a class that sees all
+   states this is $P_allowed, which does not exist with $M_SILENT_ONLY. */
 static inline int $P_silent(uint32_t c, const double state[$M_STATES], int32_t steps, uint32_t a) {{
   uint32_t i, place;
   int left = 0;

@@ -172,7 +172,7 @@ class Verifier {
             .wrong = 0,
             .unproven = entries,
             .examples = {},
-            .doubts = {"these are those of the analysis alone: there is no second method for them"},
+            .doubts = {"not checked independently: verify has no second method for these"},
             .note = {}};
   }
 

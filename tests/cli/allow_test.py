@@ -75,7 +75,7 @@ class Cases(Case):
         self.assertEqual((story["end"], story["end_sample"], len(story["steps"])), ("not_allowed", None, 1))
         self.assertEqual(story["steps"][0]["inputs"], {"a": {"u1": 1}, "b": {"u2": -1}})
         text = self.run_program("analyze", "swap.json").stdout.decode()
-        sentence = "Each agent does what is permitted to it alone, and after 1 step together they do what 'allow' forbids."
+        sentence = "Each agent independently takes permitted actions, and after 1 step their joint input is one that 'allow' forbids."
         self.assertIn(sentence, text)
         self.assertEqual(self.run_program("verify", "swap.h5", "--strict").returncode, 0)
         with h5py.File(self.folder / "swap.h5", "r+") as file:

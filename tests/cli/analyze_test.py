@@ -54,7 +54,7 @@ partition horizontal\|vertical
   unbounded delay         0 cells
   half of K can tolerate  at least 8 steps \(0\.08 s\)
   90 % of K can tolerate  at least 1 step \(0\.01 s\)
-  99 % of K can tolerate  not a step
+  99 % of K can tolerate  not one step
   From the best state \(x1 = -0\.01, x2 = 0\), 28 steps \(0\.28 s\) without coordination are safe\.
 
 results in circle\.h5 \([0-9.]+ s on 2 threads, [0-9.]+ MiB\)

@@ -1,4 +1,4 @@
-"""Silence of agents that see only themselves, from outside: cases worked by hand, examples, tables, runs, the C header."""
+"""Silence with own observations only, from outside: cases worked by hand, examples, tables, runs, the C header."""
 
 import json
 import subprocess
@@ -180,7 +180,7 @@ class Cases(Case):
         self.write("spec.json", problem)
         result = self.run_program("analyze", "spec.json", "-o", "r.h5", "--quiet")
         self.assertIn(
-            b"what 'goal', 'coordination/horizon', 'coordination/convention' and 'network' says is true of agents",
+            b"results for 'goal', 'coordination/horizon', 'coordination/convention' and 'network' assume that agents observe",
             self.run_program("analyze", "spec.json", "-o", "r.h5").stderr,
         )
         self.assertEqual(result.returncode, 0)
@@ -239,9 +239,9 @@ class Cases(Case):
             found["sight"]["cells"],
             [{"state": {"s": 1, "e": 0}, "actions": [1]}, {"state": {"s": 0, "e": 0}, "actions": [0]}],
         )
-        self.assertIn("Without sight of the others silence ends after 1 step.", found["sentences"])
+        self.assertIn("With own observations only, silence ends after 1 step.", found["sentences"])
         self.assertIn(
-            "It may end at s = 1, e = 0, where one has u1 = 1; but it cannot tell that from s = 0, e = 0, where it has "
+            "It may end at s = 1, e = 0, where one may take u1 = 1; but the class cannot distinguish this from s = 0, e = 0, where it may take "
             "u1 = 0.",
             found["sentences"],
         )
@@ -253,7 +253,7 @@ class Cases(Case):
         table = self.run_program("export", "r.h5", "--format", "csv").stdout.decode().splitlines()
         self.assertTrue({"blind_delay", "blind_countdown"} <= {name.split(":")[0] for name in table[0].split(",")})
         self.run_program("report", "r.h5", "-o", "r.html")
-        self.assertIn("Silence of agents that see only themselves", (self.folder / "r.html").read_text())
+        self.assertIn("Silence with own observations only", (self.folder / "r.html").read_text())
         result = self.run_program("info", "r.h5", "--json")
         self.assertEqual(json.loads(result.stdout)["partitions"][0]["blind"]["layers"], [2, 1, 0])
 
@@ -361,7 +361,7 @@ int main(void) {
         self.assertEqual(story["end_sample"]["state"], {"s": 1, "e": 0})
         text = self.run_program("analyze", "spec.json", "-o", "r.h5").stdout.decode()
         self.assertIn("blind delay of one|two at least 2 steps", text)
-        self.assertIn("some class has no action for all that it may see", text)
+        self.assertIn("some class has no action that suits all cells that look the same to it", text)
 
     # what is refused
 
@@ -381,7 +381,7 @@ int main(void) {
         self.results({**TOGGLE, "goal": "s == 0"})
         self.assert_fails(
             2,
-            "agents that see only themselves do not go for the goal, expected --blind or --until (--until)",
+            "agents with own observations only do not pursue the goal, expected --blind or --until (--until)",
             *("simulate", "r.h5", "--start", "random", "--steps", "2", "--blind", "--until", "goal"),
         )
         self.write("bad.json", spec_with(requirements=[{"name": "r", "where": "true", "min_blind_delay": 1}]))

@@ -279,7 +279,7 @@ class Cases(Case):
         self.assertTrue(lines[2].endswith(",-3,"))
 
     def test_connection_delay(self):
-        alone = r"  connection +takes 2 steps \(1 s\) to establish: must stand already in {} cells, or be asked for at once in {} more\n"
+        alone = r"  connection +takes 2 steps \(1 s\) to establish: must exist already in {} cells, or be requested at once in {} more\n"
         table = r"a\|b\|c .* {} cells\nA connection takes 2 steps \(1 s\) to establish\.\n"
         for partitions, shown in (([{"classes": []}], alone), ("all", table)):
             summary = self.results(corridors(partitions=partitions, connection_delay=2))
@@ -300,7 +300,7 @@ class Cases(Case):
         summary = self.results(spec)
         self.assertEqual(summary["partitions"][0]["never_without_connection"], summary["invariant"])
         text = self.run_program("analyze", "spec.json").stdout.decode()
-        self.assertRegex(text, rf"  connection .*: must stand already in at most {summary['invariant']} cells, ")
+        self.assertRegex(text, rf"  connection .*: must exist already in at most {summary['invariant']} cells, ")
 
     def test_verify_finds_other_coalitions(self):
         self.results(corridors(partitions="all", horizon=1))

@@ -105,7 +105,7 @@ class Cases(Case):
         found = self.explain("x=1,y=1")
         self.assertEqual((found["delay"], found["delay_status"], found["way_out"]), (None, "unbounded", None))
         self.assertEqual(found["remedies"], [])
-        self.assertIn("unbounded: safe without coordination for ever", self.text("x=1,y=1"))
+        self.assertIn("unbounded: safe without coordination indefinitely", self.text("x=1,y=1"))
 
     def test_delays_that_were_cut_off(self):
         self.analyzed(dict(SMALL, coordination={"max_delay": 1}))
@@ -119,7 +119,7 @@ class Cases(Case):
         found = self.explain("x=0,y=0")
         self.assertEqual((found["delay"], found["delay_status"], found["freedom"]), (None, "not_invariant", None))
         self.assertEqual({step["action"] for step in found["way_out"]["steps"]}, {"evasive"})
-        self.assertIn("Whatever all agents then do together, after", found["sentences"][0])
+        self.assertIn("Even if all agents then coordinate, after", found["sentences"][0])
 
     def test_files_with_a_controller_and_tubes(self):
         self.analyzed(dict(CORRIDOR, abstraction={"between_samples": True}, states=[dict(state, outside="saturate") for state in CORRIDOR["states"]]))
@@ -141,18 +141,18 @@ cell       number 17, around x = 3, y = 2
 partition  a|b
 delay      0 steps (0 s)
 
-the shortest way out
+shortest path out of the invariance set
 step  x [m]  y [m]  delay  collision time  action       a      b
    0      3      2      0           never  independent  u = 1  v = 1
    1      4      3      -               0
 
-Each agent does what is permitted to it alone, and after 1 step (0.5 s) the state is no longer safe.
-The grid proves 0 steps (0 s); the system itself, followed like that, leaves the invariance set after 1 step (0.5 s).
-Of their actions the controller leaves a all 3 and b all 3 here.
-Picked alone that makes 9 joint actions, of which 8 keep the next state in the invariance set.
-If "allow" left a only u = -1 here, at least 1 step (0.5 s) would be tolerated.
-If "allow" left b only v = -1 here, at least 2 steps (1 s) would be tolerated.
-With a convention ("convention": true) agents would keep a 3 of 3 and b 2 of 3 actions here, and agents that keep to it \
+Each agent independently takes permitted actions, and after 1 step (0.5 s) the state is no longer safe.
+Proven: 0 steps (0 s). A nominal simulation from the first state left the invariance set after 1 step (0.5 s).
+Actions that the controller permits here: a all 3 and b all 3.
+If each class chooses independently, 9 joint actions are possible; 8 of them keep the next state in the invariance set.
+If "allow" permitted a only u = -1 here, the delay would be at least 1 step (0.5 s).
+If "allow" permitted b only v = -1 here, the delay would be at least 2 steps (1 s).
+With a convention ("convention": true) the agents would keep these actions here: a 3 of 3 and b 2 of 3; agents that keep to it \
 never need to coordinate.
 """,
         )

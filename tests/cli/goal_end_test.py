@@ -214,7 +214,7 @@ class Cases(Case):
         self.assertEqual(json.loads(self.text_of("info", "r.h5", "--json"))["goal"]["then"], "over")
         text = self.text_of("explain", "r.h5", "--at", "h=0")
         self.assertRegex(text, "delay +unbounded: the task is over here\n")
-        self.assertTrue(text.endswith("The goal is reached here, and with it the task ends: nothing that follows matters.\n"))
+        self.assertTrue(text.endswith("The goal is reached here and the task ends: later states do not matter.\n"))
         self.assertTrue(json.loads(self.text_of("explain", "r.h5", "--at", "h=0", "--json"))["over"])
         found = json.loads(self.text_of("explain", "r.h5", "--at", "h=2", "--json"))
         self.assertEqual((found["over"], found["delay"], found["freer_is_shorter"]), (False, 1, None))

@@ -250,7 +250,7 @@ class Cases(Case):
             self.assertEqual((file["fixed_point_index"][0], file["approach_fixed_point_index"][0]), (0, -1))
         self.write("spec.json", {**problem, "coordination": {"max_delay": 1}})
         text = self.run_program("analyze", "spec.json").stdout.decode()
-        self.assertRegex(text, "loses no time +for a step from 2 cells, for ever from an unknown number")
+        self.assertRegex(text, "loses no time +for one step from 2 cells, indefinitely from an unknown number")
         result = self.run_program("query", "r1.h5", "--at", "s=0", "--json")
         approach = json.loads(result.stdout)["partitions"][0]["approach"]
         self.assertEqual((approach["delay"], approach["delay_status"]), (1, "at_least"))
@@ -263,7 +263,7 @@ class Cases(Case):
     def test_goals_that_nothing_comes_nearer_to(self):
         for goal, text in (
             ("p == 7", "no cell of the invariance set is in the goal on this grid: it cannot be forced"),
-            ("p == 2", "the goal can be forced from its own cells only"),
+            ("p == 2", "the goal can be forced from goal cells only"),
         ):
             problem = spec([state("p", 2, discrete=True)], {"u": [0, 1]}, {"p": "p - u"}, goal)
             self.write("spec.json", {**problem, "abstraction": {"cells": "half_open"}})

@@ -94,7 +94,7 @@ class Cases(Case):
         spec["coordination"] = {"partitions": "all"}
         self.write("spec.json", spec)
         text = self.run_program("analyze", "spec.json", "-o", "out.h5").stdout.decode()
-        self.assertRegex(text, r"(?m)^partition +safe by the rule for ever +F +unbounded")
+        self.assertRegex(text, r"(?m)^partition +safe by the rule indefinitely +F +unbounded")
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ network weakly_hard: at most 1 of any 3 steps lost
   11    a+b                20
   10    a|b                11
   01    a+b                21
-  Beginning in mode 11, agents that take care stay safe from 20 of 21 cells; whatever the mode is, from 11.
+  Beginning in mode 11, agents with robust re-synthesis stay safe from 20 of 21 cells; beginning in any mode, from 11.
 """,
             result.stdout.decode(),
         )

@@ -198,7 +198,7 @@ class Cases(PageCase):
             (partition,) = summary["partitions"]
             layers, never = partition["layers"], partition["fixed_point"]
             half = max(k for k, size in enumerate(layers) if 2 * size >= layers[0])
-            bears = "for ever" if 2 * never >= layers[0] else f"{half} s"
+            bears = "unbounded" if 2 * never >= layers[0] else f"{half} s"
             longest = f"{partition['F'] - 1} s" if partition["F"] > 0 else "-"
             self.assertEqual(figures.split(" | "), [f"{summary['invariant']:,}", bears, longest, f"{never:,}"])
 

@@ -146,12 +146,12 @@ class Cases(Case):
             self.assertEqual((answer["safe"], answer["invariant"], answer["partitions"]), (safe, safe, []))
         self.assert_prints(
             "state  x = 5, y = 0\n"
-            "cell   outside: x = 5 has left above the domain, where the spec says that all is safe for ever\n",
+            "cell   outside: x = 5 has left above the domain, where the spec says that the system is safe indefinitely\n",
             "query", "out.h5", "--at", "x=5,y=0",
         )  # fmt: skip
         self.assert_prints(
             "state  x = -2, y = 0\n"
-            "cell   outside: x = -2 lies below the domain, x in [-0.5, 4.5); nothing is known there\n",
+            "cell   outside: x = -2 lies below the domain, x in [-0.5, 4.5); the results do not cover it\n",
             "query", "out.h5", "--at", "x=-2,y=0",
         )  # fmt: skip
 

@@ -10,7 +10,7 @@ from report_case import FOUR, PageCase, data_of, packed, unpacked
 
 CIRCLE_COLOURS = {"none: the cell is not safe": [127, 127, 127],
                   "none: on this grid no coordination keeps the system safe from here": [189, 189, 189],
-                  "unbounded: safe without coordination for ever": [255, 255, 255]}  # fmt: skip
+                  "unbounded: safe without coordination indefinitely": [255, 255, 255]}  # fmt: skip
 
 
 class Cases(PageCase):

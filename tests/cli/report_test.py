@@ -42,7 +42,7 @@ class Cases(ReportCase):
             "1 % of the statesfor at least 0.25 s (25 steps)\n",
             text,
         )
-        self.assertIn("The agents horizontal and vertical keep a system safe together and decide anew every 0.01 s.", text)
+        self.assertIn("The agents horizontal and vertical keep a system safe together and choose new actions every 0.01 s.", text)
         self.assertIn("A state is safe if r2 <= R^2, where r2 = x1^2 + x2^2, R = 0.8.", text)
         self.assertIn("20,081 of them are safe; from 20,077 of these", text)
 

@@ -15,7 +15,7 @@ ALL = "0 <= x <= 4 and 0 <= y <= 4"
 HOLDS = {"name": "corner", "where": "-0.4 < x < 0.4 and -0.4 < y < 0.4", "min_delay": 1}
 STORY = """requirement 1.5 s of silence, fast: delay of first|second at least 3 steps (1.5 s)
   FAILS: 1 of 81 cells fails, the worst at p1 = -9, v1 = 2, v2 = 2, p2 = -9: it has a delay of 2 steps (1 s).
-  With p1 up to -9.25 m and the other states as there, the delay is long enough.
+  With p1 up to -9.25 m and the other states unchanged, the delay is long enough.
 
   step  p1 [m]  v1 [m/s]  v2 [m/s]  p2 [m]  delay  collision time  action       first     second
      0      -9         2         2      -9      2           never  independent  u1 = 0.5  u2 = 0.5
@@ -27,9 +27,9 @@ STORY = """requirement 1.5 s of silence, fast: delay of first|second at least 3 
      6      -2      0.25      0.25      -2      -               1  evasive      u1 = -1   u2 = -1
      7    -1.5         0         0    -1.5      -               0
 
-  Each agent does what is permitted to it alone, and after 3 steps (1.5 s) it is too late.
-  Whatever all agents then do together, after 4 steps (2 s) the state is no longer safe.
-  The grid proves 2 steps (1 s); the system itself, followed like that, leaves the invariance set after 5 steps (2.5 s).
+  Each agent independently takes permitted actions, and after 3 steps (1.5 s) it is too late.
+  Even if all agents then coordinate, after 4 steps (2 s) the state is no longer safe.
+  Proven: 2 steps (1 s). A nominal simulation from the first state left the invariance set after 5 steps (2.5 s).
 """
 
 
@@ -182,7 +182,7 @@ datasets
         self.assertEqual(path["end"], "outside_safe_set")
         text = self.run_spec(asking({"name": "edge", "where": ALL, "invariant": True})).stdout.decode()
         self.assertIn("the worst at x = 3, y = 4: it is not safe.\n", text)
-        self.assertIn("  It is not safe to begin with.\n", text)
+        self.assertIn("  The first state is not safe.\n", text)
 
     def test_leaving_the_domain(self):
         # A rule that lets the first one only move up: at the upper end that leads out of the domain.
@@ -196,7 +196,7 @@ datasets
         self.assertEqual((path["end"], path["end_sample"]), ("left_domain", None))
         self.assertEqual(path["left_side"], {"state": "x", "side": "above"})
         self.assertIn(
-            "  Whatever all agents then do together, after 1 step (0.5 s) the state leaves the domain, x above "
+            "  Even if all agents then coordinate, after 1 step (0.5 s) the state leaves the domain, x above "
             "its grid.\n",
             self.run_spec(spec).stdout.decode(),
         )
@@ -234,7 +234,7 @@ datasets
         path = top["counterexample"]
         self.assertEqual((path["steps"], path["end"]), ([], "no_allowed_action"))
         self.assertEqual(path["end_sample"]["collision_time"], 1)
-        self.assertIn("  Then no action is allowed any more.\n", self.run_spec(spec).stdout.decode())
+        self.assertIn("  Then no joint input is allowed.\n", self.run_spec(spec).stdout.decode())
         self.assertEqual(self.run_program("verify", "small.h5", "--quiet").returncode, 0)
 
     def test_a_way_that_is_not_safe(self):
@@ -251,7 +251,7 @@ datasets
         path = left["counterexample"]
         self.assertEqual([step["state"] for step in path["steps"]], [{"x": 0}])
         self.assertEqual((path["end"], path["end_sample"]), ("unsafe_between_samples", None))
-        self.assertIn("after 1 step the way to the next sample is not safe.\n", self.run_spec(spec).stdout.decode())
+        self.assertIn("after 1 step the motion to the next sample is not safe.\n", self.run_spec(spec).stdout.decode())
         self.assertEqual(self.run_program("verify", "small.h5", "--quiet").returncode, 0)
 
     def test_what_a_given_controller_may_choose(self):
@@ -264,7 +264,7 @@ datasets
         self.assertEqual([step["collision_time"] for step in path["steps"]], [2, 1])
         self.assertEqual(path["end_sample"]["delay_status"], "not_safe")
         self.assertIn(
-            "  With what the controller then may choose, after 2 steps (1 s) the state is no longer safe.\n",
+            "  With inputs that the controller may then choose, after 2 steps (1 s) the state is no longer safe.\n",
             self.run_spec(spec).stdout.decode(),
         )
         self.assertEqual(self.run_program("verify", "small.h5", "--quiet").returncode, 0)
@@ -279,7 +279,7 @@ datasets
         (own,) = json.loads(result.stdout)["requirements"]
         self.assertEqual(own["nearest"], {"state": "x", "best": "large", "value": 6.5})
         text = self.run_spec(spec).stdout.decode()
-        self.assertIn("\n  With x from 6.5 m on and the other states as there, the delay is long enough.\n", text)
+        self.assertIn("\n  With x from 6.5 m on and the other states unchanged, the delay is long enough.\n", text)
         asked["min_delay"] = 100
         (own,) = json.loads(self.run_spec(spec, "--json").stdout)["requirements"]
         self.assertIsNone(own["nearest"])

@@ -75,10 +75,10 @@ class Cases(Case):
         self.write("spec.json", brink(risk={"horizon": 5, "coordinated": "safest"}))
         text = self.run_program("analyze", "spec.json").stdout.decode()
         self.assertIn("\nnetwork loss: a step is lost with probability 0.1, 0.1 after a lost one\n", text)
-        self.assertIn("\nrisk within 5 steps (5 s): connected agents choose what is safest\n", text)
+        self.assertIn("\nrisk within 5 steps (5 s): connected agents choose the safest action\n", text)
         self.assertRegex(text, r"\n  up +0\.0119 +0\.0032[56] +0 +0 +0 +0 +3\n")
         self.assertIn("\n  With the network first in mode up: worst 0.0119, mean 0.00326.\n"
-                      "  Later it grows by at most 0.00162 a step, 0.00162 per s.\n", text)
+                      "  Beyond the horizon the risk grows by at most 0.00162 per step, 0.00162 per s.\n", text)
 
     def test_start_that_is_drawn(self):
         """The first step is lost as any other."""

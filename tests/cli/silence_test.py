@@ -141,8 +141,8 @@ class Cases(Case):
         self.assertEqual(result.returncode, 0)
         result = self.run_program("analyze", "spec.json", "-o", "r.h5")
         self.assertIn(
-            b"coordreq: warning: in 1 cell from which silence could be safe nothing is left to 'b' while it is silent: "
-            b"the silence is 0 there (/silence/actions)\n",
+            b"coordreq: warning: in 1 cell the communication-loss rule permits no action for 'b'; "
+            b"the tolerated silence there is 0 (/silence/actions)\n",
             result.stderr,
         )
         (silence,) = self.arrays("silence")
@@ -202,7 +202,7 @@ class Cases(Case):
         self.assertRegex(text, r"\n  silence +3 steps\n")
         self.assertRegex(text, r"\n  silent of a +1 of 3: u = 1\n")
         text = self.run_program("query", "r.h5", "--at", "x=5").stdout.decode()
-        self.assertRegex(text, r"\n  silence +none: what comes after it does not keep the system safe\n")
+        self.assertRegex(text, r"\n  silence +none: the fallback rule does not keep the system safe\n")
         result = self.run_program("query", "r.h5", stdin=b"x\n1\n5\n8\n")
         lines = [line.split(",") for line in result.stdout.decode().splitlines()]
         place = lines[0].index("silence_delay:a|b")
@@ -215,7 +215,7 @@ class Cases(Case):
         names = table[0].split(",")
         self.assertTrue({"silence", "silence_set"} <= {name.split(":")[0] for name in names})
         self.run_program("report", "r.h5", "-o", "r.html")
-        self.assertIn("Silence of agents that follow the rule", (self.folder / "r.html").read_text())
+        self.assertIn("Silence under the communication-loss rule", (self.folder / "r.html").read_text())
         info = json.loads(self.run_program("info", "r.h5", "--json").stdout)
         self.assertEqual((info["silence_set"], info["partitions"][0]["silence"]["layers"]), (5, [5, 4, 3, 2, 1, 0]))
         text = self.analyze_text("spec.json")
@@ -291,7 +291,7 @@ int main(void) {
             file["silence_fixed_point_index"][...] = 0
         result = self.run_program("verify", "r.h5")
         self.assertEqual(result.returncode, 1)
-        self.assertIn(b"x = 0: expected in the set, what comes after keeps it", result.stdout)
+        self.assertIn(b"x = 0: expected in the set, the fallback rule keeps it", result.stdout)
 
     def test_requirements(self):
         def asked(problem, where, **requirement):
@@ -315,9 +315,9 @@ int main(void) {
         text = self.run_program("analyze", "spec.json", "-o", "r.h5").stdout.decode()
         self.assertIn("requirement r: silence of a|b at least 3 steps\n", text)
         self.assertIn("FAILS: 1 of 3 cells fails, the worst at x = 2: it has a silence of 2 steps.", text)
-        self.assertIn("Silent agents follow the rule, and after 3 steps it is too late.", text)
-        self.assertIn("With what they do from then on, after 2 steps the state is no longer safe.", text)
-        seen = "The grid proves 2 steps; the system itself, followed like that, leaves the silence set after 3 steps."
+        self.assertIn("The agents follow the communication-loss rule, and after 3 steps it is too late.", text)
+        self.assertIn("With the fallback rule, after 2 steps the state is no longer safe.", text)
+        seen = "Proven: 2 steps. A nominal simulation from the first state left the silence set after 3 steps."
         self.assertIn(seen, text)
         # Without what comes after: all together cannot help from beyond K.
         alone = chain(silence={"actions": {"a": "u == 1", "b": "true"}})
@@ -347,19 +347,19 @@ int main(void) {
         self.assertEqual((way["end"], way["end_sample"]["state"]), ("outside_silence_set", {"x": 5}))
         self.assertEqual((way["proven"], way["seen"]), (2, 3))
         said = [
-            "While they are silent the agents may do here: a u = 1 and b anything.",
-            "Silent agents follow the rule, and after 3 steps what comes after silence is no longer safe.",
-            "The grid proves 2 steps; the system itself, followed like that, leaves the silence set after 3 steps.",
+            "During silence the rule permits here: a u = 1 and b any action.",
+            "The agents follow the communication-loss rule, and after 3 steps the fallback rule is no longer safe.",
+            "Proven: 2 steps. A nominal simulation from the first state left the silence set after 3 steps.",
         ]
         for sentence in said:
             self.assertIn(sentence, found["sentences"])
         text = self.run_program("explain", "r.h5", "--at", "x=2").stdout.decode()
         self.assertRegex(text, r"\nsilence +2 steps\n")
-        self.assertIn("\nthe shortest way out of silent agents\n", text)
+        self.assertIn("\nshortest path under the communication-loss rule\n", text)
         own = explained("x=5")["silence"]
         self.assertEqual((own["silence"], own["silence_status"], own["way_out"]), (None, "not_in_silence_set", None))
         text = self.run_program("explain", "r.h5", "--at", "x=5").stdout.decode()
-        self.assertRegex(text, r"\nsilence +none: what comes after it does not keep the system safe\n")
+        self.assertRegex(text, r"\nsilence +none: the fallback rule does not keep the system safe\n")
         self.assertEqual(explained("x=8")["sentences"], ["The cell is not safe."])
         self.results(chain(silence={"actions": {"a": "u == 1", "b": "x != 5"}}))
         way = explained("x=4")["silence"]["way_out"]
@@ -426,7 +426,7 @@ int main(void) {
         self.assertEqual(found["traces"][0]["outcome"], "broke_promise")
         text = self.run_program("simulate", "r.h5", "--from", "x=5", "--steps", "20", "--silent", "3").stdout.decode()
         self.assertIn("chain, partition a|b: 1 run of 20 steps, policy random, silent for 3 steps, seed 1\n", text)
-        self.assertIn("Run 0 broke the promise of silence at step 2, at x = 7.\n", text)
+        self.assertIn("Run 0 left the safe set within the promised silence at step 2, at x = 7.\n", text)
 
     def test_runs_from_anywhere(self):
         for silence in ({"actions": both("u# <= 0"), "then": GIVE_WAY}, {"actions": {"first": "u1 == -1"}}):
@@ -477,20 +477,20 @@ int main(void) {
         start = ("simulate", "r.h5", "--steps", "2")
         self.assert_fails(
             2,
-            "the spec does not say what silent agents do, expected the key 'silence' (--silent)",
+            "the spec has no communication-loss rule, expected the key 'silence' (--silent)",
             *start, "--start", "random", "--silent",
         )  # fmt: skip
         self.results(chain())
         self.assert_fails(
             2,
-            "the start is not in the silence set: what comes after silence is not safe from there (--from)",
+            "the start is not in the silence set: the fallback rule is not safe from there (--from)",
             *start, "--from", "x=5", "--silent",
         )  # fmt: skip
         self.assert_fails(2, "the start is not in the safe set (--from)", *start, "--from", "x=8", "--silent")
         self.results(chain(goal="x == 0"))
         self.assert_fails(
             2,
-            "silent agents do not go for the goal, expected --silent or --until (--until)",
+            "agents under the communication-loss rule do not pursue the goal, expected --silent or --until (--until)",
             *start, "--from", "x=1", "--silent", "--until", "goal",
         )  # fmt: skip
 

@@ -110,7 +110,7 @@ class Cases(Case):
         for sweep in ("constants.R", "constants.R=", "constants.R=1,,2", "=1,2"):
             with self.subTest(sweep=sweep):
                 message = (
-                    f"expected PATH=VALUE,VALUE, as states.0.step=0.02,0.01, found '{sweep}' (--sweep)"
+                    f"expected PATH=VALUE,VALUE, e.g. states.0.step=0.02,0.01, found '{sweep}' (--sweep)"
                 )
                 self.assert_fails(2, message, "analyze", "spec.json", "--sweep", sweep)
 

@@ -64,7 +64,7 @@ class Cases(Case):
                 self.assertRegex(
                     message,
                     r"^safety is asked only at samples, every 1 s: from p1 = -\d m, p2 = -\d m, with u1 = 10 m/s, u2 = 10 m/s, "
-                    r"the way to the next one is not safe, at p1 = [-0-9.]+ m, p2 = [-0-9.]+ m, and "
+                    r"the motion to the next one is not safe, at p1 = [-0-9.]+ m, p2 = [-0-9.]+ m, and "
                     r'p1 moves by 10 m unseen; "between_samples": true asks for safety at all times$',
                 )
 

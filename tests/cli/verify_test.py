@@ -382,7 +382,7 @@ class Cases(Case):
         self.assertRegex(result.stderr.decode(), r"^coordreq: warning: not confirmed: .* in 'abstraction v' \(results.h5\)\n$")
         self.assertIn(b"v = -3, a = -1: v ", result.stdout)
         self.assertIn(b"the budget ended", result.stdout)
-        self.assertIn(b"holds, apart from what is not confirmed", result.stdout)
+        self.assertIn(b"holds, except for what is not confirmed", result.stdout)
         self.assertEqual(self.verify("results.h5", "--budget", "0", "--strict", "--quiet").returncode, 1)
         self.assertEqual(self.verify("results.h5", "--strict", "--quiet").returncode, 0)
         text = self.verify("results.h5").stdout.decode()
@@ -417,7 +417,7 @@ class Cases(Case):
             self.assertLess(work["spent"], work["budget"] + 1_000_000)
             self.assertGreater(work["left_open"], 0)
         text = self.verify("results.h5", "--budget", "0.01").stdout.decode()
-        self.assertRegex(text, r"\nthe budget ended: [0-9]+ were not looked at to the end, see --budget\n")
+        self.assertRegex(text, r"\nthe budget ended: [0-9]+ were not checked completely, see --budget\n")
         # Whatever the number of threads.
         spent = [json.loads(self.verify("results.h5", "--json", "--budget", "0.01", "--threads", n).stdout)["work"]
                  for n in "13"]  # fmt: skip

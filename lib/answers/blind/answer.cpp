@@ -229,7 +229,7 @@ Warnings advise_on_blind(const Answers& answers) {
   if (spec.silence && !all_have_rules(*spec.silence)) others.emplace_back("silence");
   if (others.empty()) return {};
   return {{"sight", "/agents",
-           fmt::format("what {} says is true of agents who see all states, whatever they have under 'sees'",
+           fmt::format("results for {} assume that agents observe the full state; 'sees' is ignored",
                        quote_list(others, "and"))}};
 }
 

@@ -173,7 +173,7 @@ Json actions_json(const std::vector<bool>& actions) {
 }
 
 std::string steps_words(std::int32_t steps) {
-  return steps == kUnbounded ? "for ever" : count_of(steps, "step");
+  return steps == kUnbounded ? "indefinitely" : count_of(steps, "step");
 }
 
 void add_confusion(const ExplainContext& context, const Confusion& found, Explained& result) {
@@ -185,7 +185,8 @@ void add_confusion(const ExplainContext& context, const Confusion& found, Explai
       {{"state", centre_json(grid, found.cell)}, {"actions", actions_json(found.actions)}},
       {{"state", centre_json(grid, found.other)}, {"actions", actions_json(found.others_actions)}}};
   result.sentences.push_back(
-      fmt::format("It may end at {}, where {} has {}; but it cannot tell that from {}, where it has {}.",
+      fmt::format("It may end at {}, where {} may take {}; but the class cannot distinguish this from {}, "
+                  "where it may take {}.",
                   centre_words(grid, found.cell), name, action_words(*context.spec, own, found.actions),
                   centre_words(grid, found.other), action_words(*context.spec, own, found.others_actions)));
 }
@@ -206,13 +207,13 @@ Explained explain_blind(const ExplainContext& context) {
                    {"cells", Json::array()}};
   if (blind < 0) return result;
   if (!is_less) {
-    result.sentences = {"Agents that see only what they read themselves can be silent for as long."};
+    result.sentences = {"With own observations only, the agents tolerate the same silence."};
     return result;
   }
   result.sentences = {
-      is_counted ? fmt::format("Without sight of the others it is {} less: {}.",
+      is_counted ? fmt::format("With own observations only it is {} less: {}.",
                                count_of(context.delay - blind, "step"), steps_words(blind))
-                 : fmt::format("Without sight of the others silence ends after {}.", steps_words(blind))};
+                 : fmt::format("With own observations only, silence ends after {}.", steps_words(blind))};
   SightFinder finder(context);
   const std::optional<std::int64_t> end = finder.end_of_silence(blind);
   const std::optional<Confusion> found = end ? finder.find(*end) : std::nullopt;

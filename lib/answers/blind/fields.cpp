@@ -108,7 +108,7 @@ Fields blind_fields(const ProblemSpec& spec) {
                   {.column = "blind_delay",
                    .compared = "blind delay",
                    .asked = {.words = "blind delay"},
-                   .map = {.kind = "blind_delay", .title = "Silence of agents that see only themselves"}}));
+                   .map = {.kind = "blind_delay", .title = "Silence with own observations only"}}));
   fields.push_back(blind_steps("blind_countdown", spec,
                                "steps of silence that are left where agents no longer know the cell",
                                {.column = "blind_countdown", .asked = {.words = "blind steps left"}}));

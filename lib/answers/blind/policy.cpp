@@ -85,7 +85,7 @@ std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
   if (!has_limited_sight(spec)) return {};
   return {{.name = "blind",
            .words = "blind",
-           .gain = "see only themselves",
+           .gain = "own observations",
            .headline = "with own observations only",
            .delay = paths::kBlindDelay,
            .trigger = paths::kBlindCountdown,

@@ -73,8 +73,8 @@ Explained explain_convention(const ExplainContext& context) {
   }
   if (!context.is_bounded) return result;
   result.sentences = {
-      fmt::format("With a convention (\"convention\": true) agents would keep {} actions here, "
-                  "and agents that keep to it never need to coordinate.",
+      fmt::format("With a convention (\"convention\": true) the agents would keep these actions here: {}; "
+                  "agents that keep to it never need to coordinate.",
                   listed_words(parts))};
   return result;
 }

@@ -142,7 +142,7 @@ Warnings advise_on_goal(const Answers& answers) {
   if (goal->sizes.winning > goal->sizes.cells) return {};
   const bool is_closed = answers.context.spec.abstraction.cells == Cells::closed;
   return {{"goal", "/goal",
-           std::string("the goal can be forced from its own cells only") +
+           std::string("the goal can be forced from goal cells only") +
                (is_closed
                     ? "; with closed cells a motion of at most one cell a step still meets the cell where it "
                       "began: try smaller steps, a longer period or \"cells\": \"half_open\""

@@ -43,7 +43,7 @@ std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
            .make = make_goal_policy,
            .header = {.where = "on the way to the goal",
                       .purpose = "Towards the goal. Where it " + where_of_no_use +
-                                 ", the two below are of no use: go on with the two\n   above.",
+                                 ", the two below do not apply: continue with the two\n   above.",
                       .countdown = "Steps until the agents must start to connect, so as to lose no time, or "
                                    "one of the numbers above.",
                       .allowed = "Whether class c comes nearer to the goal by its joint action a, with some "

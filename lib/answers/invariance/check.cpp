@@ -80,7 +80,7 @@ class SetChecker : public CellChecker {
       if (context_.sound_only()) {
         tallies_.invariant.add_unproven();
       } else {
-        wrong(tallies_.invariant, cell, "not in K, but agents that coordinate stay in K for ever");
+        wrong(tallies_.invariant, cell, "not in K, but coordinating agents can stay in K indefinitely");
       }
     }
     check_collision_time(cell, any ? one_more(best) : 1);

@@ -47,7 +47,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                  .meanings = {{"not_safe", "none: the cell is not safe"},
                               {"not_invariant",
                                "none: on this grid no coordination keeps the system safe from here"},
-                              {"unbounded", "unbounded: safe without coordination for ever"}}},
+                              {"unbounded", "unbounded: safe without coordination indefinitely"}}},
        .map = {.kind = "delay"}},
       "/fixed_point_index"));
   fields.push_back(

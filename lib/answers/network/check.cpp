@@ -62,7 +62,8 @@ class NetworkChecker : public CellChecker {
       } else if (cell.is_over()) {
         if (!claimed) complain(mode, "not safe, but the task is over");
       } else if (network_.spec.resynthesise) {
-        if (claimed && !can_take_care(mode)) doubt(mode, "safe, but agents that take care may leave");
+        if (claimed && !can_take_care(mode))
+          doubt(mode, "safe, but agents with robust re-synthesis may leave");
       } else {
         compare(mode, claimed);
       }

@@ -69,7 +69,7 @@ class RequirementChecker {
     check_counts(bounds);
     check_reach();
     const bool holds = claim_.failing == 0 && !claim_.reached_side;
-    if (claim_.holds != holds) wrong("the verdict does not follow from what is said");
+    if (claim_.holds != holds) wrong("the verdict does not follow from the stored numbers");
     // The analysis must have shown that doubted cells do not meet the region, which this check does not show.
     if (claim_.failing == 0 && bounds.doubted_failing > 0) tally_.add_unproven();
     if (claim_.path.has_value() != (claim_.failing > 0)) wrong("a counterexample without a failing cell");
@@ -176,12 +176,12 @@ class RequirementChecker {
   /// The step at which the system itself leaves is an observation, but cannot be before the proven one.
   void check_seen(const ResultPath& path, std::int32_t value) {
     if (is_followed(asked_.kind, path) != (path.seen != ResultPath::kNotFollowed))
-      return wrong("a run of the system itself where none is followed, or none where one is");
+      return wrong("a nominal simulation where none is made, or none where one is");
     if (path.seen <= 0) return;
     const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
     const std::int64_t left = collision_time_[path.cell.front()];  // the claim may be any number
     const std::int64_t proven = value >= 0 ? value : is_after ? 0 : left - 1;
-    if (path.seen <= proven) wrong("the system itself leaves sooner than is proven");
+    if (path.seen <= proven) wrong("the nominal simulation leaves sooner than proven");
   }
 
   /// Whether there is `then`: the file does not have the steps after which it leaves S.

@@ -84,7 +84,7 @@ void PathChecker::check_step(std::size_t step) {
   const std::optional<std::int64_t> u = input_of(step);
   if (!u) return wrong(step, "not a joint input of the spec");
   if (path_->phase[step] != phase_of(step)) return wrong(step, "another phase than that of the cell");
-  if (!cell_.is_safe()) return wrong(step, "goes on after it has left the safe set");
+  if (!cell_.is_safe()) return wrong(step, "continues after it has left the safe set");
   switch (path_->phase[step]) {
     case EscapePhase::independent:
       check_independent(step, *u);
@@ -129,7 +129,7 @@ void PathChecker::check_together(std::size_t step, std::int64_t u) {
   const std::int32_t arrival = progress_->arrival(cell_.at());
   const std::int32_t expected = arrival == kForever ? kForever : arrival - 1;
   if (arrival <= 0 || progress_->worst(cell_, u) != expected)
-    differs(step, "the joint input is not one that comes to the goal soonest");
+    differs(step, "the joint input does not have the shortest time to the goal");
   if (step + 1 < path_->samples() && progress_->arrival(path_->cell[step + 1]) != expected)
     differs(step, "the next cell is not the one farthest from the goal");
 }
@@ -174,7 +174,7 @@ void PathChecker::check_evasive(std::size_t step, std::int64_t u) {
 
 void PathChecker::check_silent(std::size_t step, std::int64_t u) {
   if (!std::ranges::binary_search(silent_->of(cell_.number(), cell_.admitted()), u))
-    differs(step, "the joint input is not what the rules of silence allow");
+    differs(step, "the communication-loss rule does not permit the joint input");
   const std::int32_t delay = path_->delay[step];
   const bool goes_on = step + 1 < path_->samples();
   const std::int32_t next = goes_on ? std::max(path_->delay[step + 1], kOutsideInvariant) : kOutsideInvariant;
@@ -184,9 +184,8 @@ void PathChecker::check_silent(std::size_t step, std::int64_t u) {
 /// Checks a step by `then`; the file does not have the times at which steps leave S.
 void PathChecker::check_afterwards(std::size_t step, std::int64_t u) {
   if (!std::ranges::binary_search(afterwards_->of(cell_.number(), cell_.admitted()), u))
-    differs(step, "the joint input is not what comes after silence");
-  if (step + 1 < path_->samples() && path_->delay[step + 1] >= 0)
-    differs(step, "goes back to where what comes after silence is safe");
+    differs(step, "the fallback rule does not permit the joint input");
+  if (step + 1 < path_->samples() && path_->delay[step + 1] >= 0) differs(step, "returns to the silence set");
 }
 
 /// Whether in a cell the rules leave agents no action.
@@ -199,10 +198,11 @@ bool PathChecker::ends_without_rule(std::size_t cell) {
 }
 
 void PathChecker::check_next(std::size_t step, std::int64_t u) {
-  if (cell_.is_forbidden(u)) return differs(step, "goes on with a joint input that is forbidden");
-  if (is_blocked(u) || !cell_.is_way_safe(u)) return differs(step, "goes on where there is no post");
+  if (cell_.is_forbidden(u)) return differs(step, "continues with a joint input that is forbidden");
+  if (is_blocked(u) || !cell_.is_way_safe(u))
+    return differs(step, "continues although no transition is safe");
   if (!is_in_post(u, static_cast<std::int64_t>(path_->cell[step + 1])))
-    differs(step, "the next cell is not in the post");
+    differs(step, "the next cell is not in the successor set");
 }
 
 /// Checks a last action that leads to no cell.
@@ -216,7 +216,7 @@ void PathChecker::check_last_step(std::int64_t u) {
   if (path_->end == EscapeEnd::no_common_action || path_->end == EscapeEnd::no_silent_action) return;
   if (path_->end >= EscapeEnd::arrived) return;  // the post has left through a `goal` side, or a `safe` one
   if (path_->end == EscapeEnd::unsafe_between_samples) {
-    if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the way to the next sample is safe");
+    if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the motion to the next sample is safe");
   } else if (path_->end != EscapeEnd::left_domain || !path_->left_side) {
     wrong(step, "the last action leads nowhere, but the end is another");
   } else if (!leaves_domain(u, *path_->left_side)) {
@@ -234,7 +234,7 @@ void PathChecker::check_end() {
   } else if (path_->end == EscapeEnd::no_allowed_action) {
     bool any = false;
     for (std::int64_t u = 0; safe && u < context_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
-    if (!stays || !safe || any) wrong(path_->samples(), "in the last cell something is allowed");
+    if (!stays || !safe || any) wrong(path_->samples(), "in the last cell some joint input is allowed");
   } else if (path_->end == EscapeEnd::too_risky || asked_.kind == RequirementKind::max_risk) {
     const bool is_alone = path_->samples() == 1 && path_->steps() == 0;
     if (!is_alone || path_->end != EscapeEnd::too_risky || asked_.kind != RequirementKind::max_risk)
@@ -266,14 +266,14 @@ void PathChecker::check_goal_end() {
   const bool stays = path_->samples() > path_->steps();
   const bool on_the_way = !path_->phase.empty() && path_->phase.back() >= EscapePhase::together;
   if (!progress_ || !on_the_way)
-    return wrong(path_->samples(), "an end of the way to the goal, which it is not on");
+    return wrong(path_->samples(), "an end of a path to the goal, which it is not");
   const auto last = path_->cell.end() - 1;
   if (path_->end == EscapeEnd::arrived && stays && progress_->arrival(*last) != 0)
     wrong(path_->samples(), "the last cell is not in the goal");
   if (path_->end == EscapeEnd::never_arrives && stays && std::find(path_->cell.begin(), last, *last) == last)
-    wrong(path_->samples(), "the last cell does not come again");
+    wrong(path_->samples(), "the last cell does not repeat");
   if (path_->end == EscapeEnd::time_lost && path_->phase.back() != EscapePhase::approaching)
-    wrong(path_->samples(), "time is lost by agents that act alone only");
+    wrong(path_->samples(), "only independent choices can lose time");
 }
 
 bool PathChecker::is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const {

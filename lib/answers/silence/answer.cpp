@@ -160,9 +160,9 @@ Warnings advise_on_silence(const Answers& answers) {
     warnings.push_back(
         {"silence", "/silence/actions",
          fmt::format(
-             "in {} cell{} from which silence could be safe nothing is left to {} while it is silent{}: "
-             "the silence is 0 there",
-             grouped(cells), cells == 1 ? "" : "s", quote_list(agents, "or"), partition)});
+             "in {} cell{}{} the communication-loss rule permits no action for {}; the tolerated silence "
+             "there is 0",
+             grouped(cells), cells == 1 ? "" : "s", partition, quote_list(agents, "or"))});
   }
   return warnings;
 }

@@ -86,7 +86,7 @@ class SilenceChecker : public CellChecker {
     if (set_.members[cell.at()] == 0) return;
     if (is_member && stays(cell, *then_, set_.members)) return;
     set_.tally.add_wrong(cell.number(),
-                         [&] { return cell.place() + ": what comes after does not keep it there"; });
+                         [&] { return cell.place() + ": the fallback rule does not keep it there"; });
   }
 
   [[nodiscard]] static std::int32_t silence_by_definition(CheckedCell& cell,
@@ -174,7 +174,7 @@ class SilenceCheck : public AnswerCheck {
         set_.tally.add_unproven();
       } else {
         set_.tally.add_wrong(x, [&] {
-          return place_of(*context_.grid, x) + ": expected in the set, what comes after keeps it";
+          return place_of(*context_.grid, x) + ": expected in the set, the fallback rule keeps it";
         });
       }
     }

@@ -29,10 +29,9 @@ Field silence_field(const ProblemSpec& spec) {
        .asked = {.words = "silence",
                  .meanings = {{"not_safe", "none: the cell is not safe"},
                               {"not_invariant", "none: no coordination keeps the system safe from here"},
-                              {"not_in_silence_set",
-                               "none: what comes after it does not keep the system safe"},
-                              {"unbounded", "unbounded: safe for ever"}}},
-       .map = {.kind = "silence", .title = "Silence of agents that follow the rule"}},
+                              {"not_in_silence_set", "none: the fallback rule does not keep the system safe"},
+                              {"unbounded", "unbounded: safe indefinitely"}}},
+       .map = {.kind = "silence", .title = "Silence under the communication-loss rule"}},
       "/silence_fixed_point_index");
 }
 

@@ -39,10 +39,10 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
            .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
              return std::make_unique<SilencePolicy>(context, SilentInputs::Part::actions);
            },
-           .header = {.where = "while silent agents follow the rule",
-                      .purpose = "Agents who follow the rule while they are silent.",
-                      .countdown = "Steps of that which are safe, or one of the numbers above.",
-                      .allowed = "Whether class c may take its joint action a while it is silent."}}};
+           .header = {.where = "under the communication-loss rule",
+                      .purpose = "Agents that follow the communication-loss rule during silence.",
+                      .countdown = "Steps of silence that are safe, or one of the numbers above.",
+                      .allowed = "Whether class c may take its joint action a during silence."}}};
 }
 
 AnswerPolicy afterwards_policy() {

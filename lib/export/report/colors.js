@@ -15,10 +15,10 @@ const kMostNamed = 16; // partitions that have colours of their own
 
 const kLost = [
   [-2, [kColors.notSafe, "not safe"]],
-  [-1, [kColors.notInvariant, "cannot be kept safe on this grid, whatever is coordinated"]],
+  [-1, [kColors.notInvariant, "cannot be kept safe on this grid, even with full coordination"]],
 ];
 const kMeanings = {
-  delay: new Map([...kLost, [Infinity, [kColors.free, "safe without contact for ever"]]]),
+  delay: new Map([...kLost, [Infinity, [kColors.free, "safe without contact indefinitely"]]]),
   collision_time: new Map([
     [0, [kColors.notSafe, "not safe"]],
     [Infinity, [kColors.free, "never leaves the safe set, with coordination"]],

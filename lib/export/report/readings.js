@@ -34,7 +34,7 @@ function furtherReading(map, cell) {
     case "modes":
       return [["Safe in", modesText(map, value)]];
     case "freedom":
-      return [[`Convention leaves ${map.agent}`, value < 0 ? "-" : `${freedomText(value)} of its actions`]];
+      return [[`Convention: actions of ${map.agent}`, value < 0 ? "-" : freedomText(value)]];
     case "delay":
     case "collision_time":
       return [];

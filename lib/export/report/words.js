@@ -31,14 +31,14 @@ function withUnit(text, unit) {
 function collisionText(steps) {
   if (steps === Infinity) return "never, with coordination";
   if (steps === 0) return "0 steps: not safe now";
-  return `perhaps within ${stepsText(steps)}, whatever is coordinated`;
+  return `possibly within ${stepsText(steps)}, even with full coordination`;
 }
 
 // The delay of a cell in the last layer that was computed is a lower bound.
 function delayText(delay, partition) {
   if (delay === -2) return "none: the cell is not safe";
   if (delay === -1) return "none: on this grid no coordination keeps the system safe from here";
-  if (delay === Infinity) return "unbounded: safe without coordination for ever";
+  if (delay === Infinity) return "unbounded: safe without coordination indefinitely";
   const atLeast = partition.truncated && delay + 1 === partition.layers.length;
   return (atLeast ? "at least " : "") + stepsText(delay);
 }
