@@ -115,7 +115,7 @@ ExitCode run_analyze_batch(const AnalyzeOptions& asked, const BatchWork& work) {
        [&results](std::size_t run, RunOutcome outcome) { results.take(run, std::move(outcome)); });
   const std::vector<FinishedRun>& runs = results.runs();
   if (asked.junit) write_report(*asked.junit, runs);
-  if (!asked.json && !asked.quiet) write_output(closing_text(runs, asked));
+  if (!asked.json && !asked.quiet) write_output(failures_text(runs) + closing_text(runs, asked));
   if (asked.json) write_output(batch_json(runs));
   return static_cast<ExitCode>(worst_exit_code(runs));
 }

@@ -22,7 +22,7 @@ void AtomicFile::write(std::string_view text) {
     file_.emplace(path_);
     stream_.open(file_->temporary(), std::ios::binary);
   }
-  if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+  if (is_interrupted()) throw interruption();
   if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
 }
 

@@ -8,6 +8,8 @@
 
 #include "app/analysis_text.hpp"
 #include "app/answers/all.hpp"
+#include "app/render.hpp"
+#include "app/requirement_text.hpp"
 #include "base/json.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -173,6 +175,20 @@ std::string BatchTable::row(const FinishedRun& run) const {
     row.push_back("error: " + run.failure->what);
   }
   return table_.line(row);
+}
+
+std::string failures_text(const std::vector<FinishedRun>& runs) {
+  std::string text;
+  for (const FinishedRun& run : runs) {
+    if (!run.summary) continue;
+    for (const Json& entry : (*run.summary)["requirements"]) {
+      if (entry["holds"]) continue;
+      text += fmt::format("\n{}: requirement {}: {}\n  FAILS: {}.\n", printable(run_label(*run.plan)),
+                          line_of(entry["name"]), claim_text(entry, *run.plan->spec),
+                          failure_line(entry, *run.plan->spec));
+    }
+  }
+  return text;
 }
 
 std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked) {

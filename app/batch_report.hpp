@@ -41,6 +41,9 @@ class BatchTable {
   Table table_;
 };
 
+/// The requirements that fail, each with the reason, as `analyze` gives it for one spec.
+[[nodiscard]] std::string failures_text(const std::vector<FinishedRun>& runs);
+
 /// Where the results are.
 [[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked);
 

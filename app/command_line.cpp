@@ -129,7 +129,8 @@ std::string taken(const Command& command) {
     const Options::Argument& only = arguments.front();
     return fmt::format("takes {}one argument, {}", only.is_required ? "" : "at most ", only.name);
   }
-  return fmt::format("takes two arguments, {} and {}", arguments.front().name, arguments.back().name);
+  return fmt::format("takes {}two arguments, {} and {}", arguments.back().is_required ? "" : "at most ",
+                     arguments.front().name, arguments.back().name);
 }
 
 void check_arguments_are_there(const ProgramInfo& program, const Command& command) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/standard_streams.hpp"
+#include "app/text.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -12,8 +13,8 @@ void IgnoredColumns::tell(const std::vector<std::string>& names, const std::stri
   is_told_ = true;
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + quote_text(name);
-  write_diagnostics(
-      fmt::format("coordreq: warning: {} is called {}: ignored{} (standard input)\n", what_, list, hint));
+  write_diagnostics(fmt::format("coordreq: warning: {} is called {}: ignored{} ({})\n", what_, list, hint,
+                                printable(source_)));
 }
 
 }  // namespace coordreq

@@ -4,6 +4,7 @@
 #include "app/standard_streams.hpp"
 
 int main(int argc, char** argv) {
+  const bool as_json = coordreq::asks_for_json(argc, argv);
   try {
     coordreq::hold_standard_streams();
     coordreq::install_interrupt_handlers();
@@ -13,6 +14,6 @@ int main(int argc, char** argv) {
   } catch (const coordreq::ClosedPipe&) {
     coordreq::end_by_closed_pipe();
   } catch (...) {
-    return coordreq::report_current_exception();
+    return coordreq::report_current_exception(as_json);
   }
 }

@@ -7,12 +7,14 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "base/process_memory.hpp"
 #include "base/requires.hpp"
 #include "spec/spec_errors.hpp"
@@ -97,6 +99,22 @@ int report() {
   }
 }
 
+/// The exception under way as a document. An interrupt is none: mostly it ends the program where no text can
+/// be made.
+void report_as_json() noexcept {
+  if (has_output()) return;
+  try {
+    const Failure failure = describe_current_exception();
+    if (failure.exit_code == static_cast<int>(ExitCode::interrupted)) return;
+    Json json = {{"error", failure.what}};
+    if (!failure.more.empty()) json["more_errors"] = failure.more;
+    json["exit_code"] = failure.exit_code;
+    write_output(json_text(json));
+  } catch (...) {
+    // Standard error has the message; there is no memory for another, or nothing reads it.
+  }
+}
+
 }  // namespace
 
 std::string report_request() {
@@ -143,10 +161,19 @@ void report_what_terminates() {
   mp_set_memory_functions(allocate, reallocate, nullptr);
 }
 
-int report_current_exception() noexcept {
+bool asks_for_json(int argc, const char* const* argv) noexcept {
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    if (std::string_view(argv[i]) == "--json") return true;
+  }
+  return false;
+}
+
+int report_current_exception(bool as_json) noexcept {
   REQUIRES(std::current_exception() != nullptr);
   try {
-    return report();
+    const int exit_code = report();
+    if (as_json) report_as_json();
+    return exit_code;
   } catch (...) {
     write_diagnostics("coordreq: error: the system gave no more memory\n");
     return static_cast<int>(ExitCode::limit);

@@ -8,9 +8,13 @@ namespace coordreq {
 /// The exit code for a bug in this program; sysexits.h calls it EX_SOFTWARE.
 constexpr int kInternalError = 70;
 
+/// Whether the arguments ask for JSON, whatever else is wrong with them.
+[[nodiscard]] bool asks_for_json(int argc, const char* const* argv) noexcept;
+
 /// Prints the exception under way as one line "coordreq: error: WHAT (WHERE)".
-/// @pre called from within a catch block. @returns the exit code
-[[nodiscard]] int report_current_exception() noexcept;
+/// @pre called from within a catch block. @param as_json also as a document on standard output, where
+///   nothing has been written yet. @returns the exit code
+[[nodiscard]] int report_current_exception(bool as_json = false) noexcept;
 
 /// From now on an exception that nothing can catch is reported so as well, and ends the program: one that is
 /// thrown while another is under way, as where memory runs out and clearing up takes more of it. GMP says by

@@ -69,8 +69,10 @@ std::string steps_table(std::size_t way, const StoryTable& story) {
     rows += html_row(cells);
   }
   return "<details><summary>Step by step</summary>\n" + html_table("", heads, rows, "story") +
-         "<p class=\"note\">An independent action is one that the agent may take on its own; evasive actions "
-         "put off the end for as long as possible. Delay and collision time are in steps.</p></details>\n";
+         "<p class=\"note\">An independent action is one that the agent may take without coordination; "
+         "evasive actions "
+         "delay the violation for as long as possible. Delay and collision time are in "
+         "steps.</p></details>\n";
 }
 
 std::string failure(std::size_t& way, const Json& entry, const ProblemSpec& spec) {
@@ -87,6 +89,11 @@ std::string failure(std::size_t& way, const Json& entry, const ProblemSpec& spec
 }
 
 }  // namespace
+
+bool has_failed_requirement(const ResultsReader& results) {
+  const std::vector<ResultRequirement> all = read_requirement_values(results.spec(), results);
+  return std::any_of(all.begin(), all.end(), [](const ResultRequirement& each) { return !each.holds; });
+}
 
 std::string report_requirements(const ResultsReader& results) {
   const ProblemSpec& spec = results.spec();

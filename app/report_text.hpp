@@ -27,6 +27,9 @@ namespace coordreq {
 /// The meaning of names in regions of requirements, except those that report_task() explains.
 [[nodiscard]] std::string report_names_of_regions(const ProblemSpec& spec);
 
+/// Whether a requirement of the results fails.
+[[nodiscard]] bool has_failed_requirement(const ResultsReader& results);
+
 /// Each requirement with its verdict, and what goes wrong where one fails; empty if there are none.
 [[nodiscard]] std::string report_requirements(const ResultsReader& results);
 

@@ -33,6 +33,8 @@ int write_all(int descriptor, std::string_view text) noexcept {
 
 bool pipe_signal_was_ignored = false;
 
+std::atomic<bool> is_output_begun = false;
+
 // A signal handler clears the line.
 std::atomic<std::size_t> line_length = 0;
 static_assert(std::atomic<std::size_t>::is_always_lock_free, "a signal handler must not take a lock");
@@ -63,7 +65,12 @@ void end_by_closed_pipe() noexcept {
   ::_exit(static_cast<int>(ExitCode::input_output));  // where the signal is blocked
 }
 
+bool has_output() noexcept {
+  return is_output_begun;
+}
+
 void write_output(std::string_view text) {
+  is_output_begun = true;
   const int error = write_all(STDOUT_FILENO, text);
   if (error == 0) return;
   if (error == EPIPE && !pipe_signal_was_ignored) throw ClosedPipe();

@@ -16,6 +16,9 @@ struct ClosedPipe {};
 /// Ends the program as the signal would have done that a closed pipe sends.
 [[noreturn]] void end_by_closed_pipe() noexcept;
 
+/// Whether write_output() has been called. A signal handler may ask.
+[[nodiscard]] bool has_output() noexcept;
+
 /// Writes all of `text` to standard output. @throws IoError if that fails (disk full, closed); ClosedPipe,
 /// or an IoError too where the caller has set that signal to be ignored
 void write_output(std::string_view text);

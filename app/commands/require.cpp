@@ -52,7 +52,7 @@ constexpr std::array kLimits = {
     LimitOption{RequirementKind::max_arrival, "--arrival", "N",
                 "The steps, or the time, within which the goal can be forced ('goal')"},
     LimitOption{RequirementKind::max_risk, "--risk", "P",
-                "The greatest probability to leave the invariance set within the horizon ('risk')"}};
+                "The maximum probability of leaving the invariance set within the horizon ('risk')"}};
 
 /// The limit that was asked for, of which there is one.
 std::pair<LimitOption, std::string> limit_of(const RequireOptions& options) {
@@ -63,7 +63,11 @@ std::pair<LimitOption, std::string> limit_of(const RequireOptions& options) {
       throw UsageError(fmt::format("expected one limit, found {} too", found->first.name), kLimits[i].name);
     found.emplace(kLimits[i], *options.limits[i]);
   }
-  if (!found) throw UsageError("expected how much silence is to be tolerated", kLimits.front().name);
+  if (!found)
+    throw UsageError(
+        "missing --delay N, the silence to be tolerated, or one of --silence, --blind, --approach, --arrival "
+        "and "
+        "--risk");
   return *found;
 }
 
@@ -134,7 +138,7 @@ std::vector<TableSelection::Slice> given_of(const RequireOptions& options, const
 ExitCode run(const RequireOptions& options) {
   if (options.csv && options.json) throw UsageError("expected --csv or --json, found both", "--csv");
   static_cast<void>(limit_of(options));
-  if (options.over.empty()) throw UsageError("expected the state that is sought", "--over");
+  if (options.over.empty()) throw UsageError("missing --over STATE, the state over which to search");
   options.keep_to_memory();
   const ResultsReader results(options.results, options.max_memory);
   ToleranceQuestion question{.partition = find_partition(results.spec(), options.partition)};
@@ -162,11 +166,12 @@ Run declare_require(Options& options) {
   options.option(own->over, "--over", "STATES", "The state that is sought, or two with a comma between",
                  as_typed);
   options.option(own->given, "--given", "VALUES",
-                 "Values of other states, as v1=1,v2=-1; of those left out every value counts", named_values);
+                 "Values of other states, e.g. v1=1,v2=-1; a state left out may have any value",
+                 named_values);
   options.option(
       own->best, "--best", "WORDS",
       "Which values are better, large or small: only the bound from which on, or up to which; for two "
-      "states perhaps two words (default: large; of one state all intervals)",
+      "states optionally two words (default: large; for one state all intervals)",
       as_typed);
   options.option(own->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.flag(own->csv, "--csv", "A line for each interval, or corner of the region, as CSV");

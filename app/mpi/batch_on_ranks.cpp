@@ -75,7 +75,7 @@ class Dispatcher {
     while (const std::optional<std::size_t> own = take())
       done_(*own, outcome_of(*plan_[*own].spec, plan_[*own].output, asked, ""));
     while (at_work_ > 0) {
-      if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+      if (is_interrupted()) throw interruption();
       look();
       std::this_thread::sleep_for(kPause);
     }

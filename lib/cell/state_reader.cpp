@@ -35,6 +35,21 @@ std::vector<std::string> csv_fields(std::string_view line, const std::string& wh
   return fields;
 }
 
+/// Refuses tables as they are usual where numbers are written with commas.
+void check_commas(std::string_view header, const std::string& where) {
+  if (header.find(',') != std::string_view::npos) return;
+  for (const auto& [sign, words] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
+    if (header.find(sign) == std::string_view::npos) continue;
+    throw UsageError(fmt::format("expected commas between columns and points in numbers, found {}", words),
+                     where);
+  }
+}
+
+/// Of a line with more values than columns: whether commas in numbers can be why.
+std::string comma_hint(std::size_t columns, std::size_t values) {
+  return values > columns ? "; numbers need a decimal point, not a comma" : "";
+}
+
 }  // namespace
 
 std::string StateReader::Extra::text() const {
@@ -84,6 +99,7 @@ std::string StateReader::missing(const char* what, const std::string& state) con
 }
 
 void StateReader::read_header() {
+  check_commas(trimmed(line_), place());
   for (const std::string& field : csv_fields(line_, place())) {
     const std::string name(trimmed(field));
     const std::size_t state = state_of(name);
@@ -109,7 +125,9 @@ std::optional<std::vector<Rational>> StateReader::next() {
 std::vector<Rational> StateReader::csv_state() {
   const std::vector<std::string> fields = csv_fields(line_, place());
   if (fields.size() != columns_.size()) {
-    throw UsageError(fmt::format("expected {} values, found {}", columns_.size(), fields.size()), place());
+    throw UsageError(fmt::format("expected {} values, found {}{}", columns_.size(), fields.size(),
+                                 comma_hint(columns_.size(), fields.size())),
+                     place());
   }
   std::vector<Rational> state(names_.size());
   is_given_.assign(names_.size(), false);

@@ -33,10 +33,25 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
   return parts;
 }
 
+namespace {
+
+/// "1,5"
+bool is_decimal_with_comma(std::string_view text) {
+  std::string with_point(text);
+  const std::size_t comma = with_point.find(',');
+  if (comma == std::string::npos) return false;
+  with_point[comma] = '.';
+  return parse_decimal(with_point).has_value();
+}
+
+}  // namespace
+
 Rational parse_value(std::string_view text, const std::string& where) {
   text = trimmed(text);
   if (text.empty()) throw UsageError("expected a number, found nothing", where);
   if (const std::optional<Rational> value = parse_decimal(text)) return *value;
+  if (is_decimal_with_comma(text))
+    throw UsageError("expected a decimal point, found " + quote_text(text), where);
   const auto nothing = [](std::string_view) { return Binding(); };
   try {
     return constant_value(link(text, nothing, ExpectedType::number, where), where);

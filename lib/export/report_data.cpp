@@ -8,6 +8,7 @@
 #include "answers/requirements/result_requirement.hpp"
 #include "base/json.hpp"
 #include "export/report_map_list.hpp"
+#include "export/tolerance_frontier.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -65,6 +66,12 @@ Json sets_json(const ResultsReader& results, std::vector<ReportMap>& maps,
   return all;
 }
 
+/// The kind of the map that shows what is required.
+std::string kind_of_map(const ResultsReader& results, RequirementKind kind) {
+  if (kind == RequirementKind::invariant || !results.has(path_of(kind))) return "collision_time";
+  return results.field(path_of(kind)).shown.map.kind;
+}
+
 /// The cells that the counterexamples visit; `independent` steps lead out of K.
 Json ways_json(const ResultsReader& results) {
   Json ways = Json::array();
@@ -74,6 +81,7 @@ Json ways_json(const ResultsReader& results) {
     if (!requirement.path) continue;
     Json& way = ways.emplace_back();
     const auto& partition = results.spec().requirements[r].partition;
+    way["kind"] = kind_of_map(results, results.spec().requirements[r].kind);
     way["requirement"] = requirement.name;
     way["partition"] = partition ? Json(*partition) : Json();
     const auto& phase = requirement.path->phase;

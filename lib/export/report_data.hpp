@@ -34,7 +34,8 @@ struct ReportData {
 /// choose_cells() finds the delay of each of `partitions` and the collision time; where the file has them the
 /// coalition, the critical pairs, the modes of the network that are safe, and the freedom that the convention
 /// leaves each agent, in hundredths of a per cent; of probabilities 0, or 1 and the hundredths of powers of
-/// ten above 1e-12, rounded up. With them the ways of the counterexamples.
+/// ten above 1e-12, rounded up. With them the ways of the counterexamples, and the kind of the map that shows
+/// what they contradict.
 ///
 /// Of pairs and modes a map holds numbers of sets, which its head lists as hexadecimal digits of bits, the
 /// first member the lowest bit. If there are more members than the limits say, or more sets than these, only

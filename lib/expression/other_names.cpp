@@ -55,6 +55,16 @@ constexpr std::array kOtherFunctions = {
     OtherName{"heaviside", "if(x > 0, 1, 0)"},
 };
 
+/// Signs of mathematics beyond ASCII.
+constexpr std::array kOtherSigns = {
+    OtherName{"\u2264", "<="},      OtherName{"\u2A7D", "<="},  OtherName{"\u2265", ">="},
+    OtherName{"\u2A7E", ">="},      OtherName{"\u2260", "!="},  OtherName{"\u2227", "and"},
+    OtherName{"\u2228", "or"},      OtherName{"\u00AC", "not"}, OtherName{"\u00D7", "*"},
+    OtherName{"\u00B7", "*"},       OtherName{"\u22C5", "*"},   OtherName{"\u2212", "-"},
+    OtherName{"\u2013", "-"},       OtherName{"\u00F7", "/"},   OtherName{"\u03C0", "pi"},
+    OtherName{"\u221A", "sqrt(x)"}, OtherName{"\u00B2", "^2"},  OtherName{"\u00B3", "^3"},
+};
+
 constexpr std::array kOtherConstants = {
     OtherName{"pi", "pi"},      OtherName{"m_pi", "pi"},   OtherName{"e", "exp(1)"},
     OtherName{"m_e", "exp(1)"}, OtherName{"true", "true"}, OtherName{"false", "false"},
@@ -84,6 +94,10 @@ std::string meant_function(std::string_view name) {
                       });
   if (is_own && small != name) return fmt::format(", did you mean '{}'?", small);
   return meant(kOtherFunctions, small);
+}
+
+std::string meant_sign(std::string_view sign) {
+  return meant(kOtherSigns, sign);
 }
 
 std::string meant_constant(std::string_view name) {

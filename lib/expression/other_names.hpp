@@ -9,6 +9,9 @@ namespace coordreq {
 /// if none is known.
 [[nodiscard]] std::string meant_function(std::string_view name);
 
+/// meant_function() for a sign beyond ASCII, in UTF-8: ", did you mean '<='?".
+[[nodiscard]] std::string meant_sign(std::string_view sign);
+
 /// meant_function() for constants and truth values.
 [[nodiscard]] std::string meant_constant(std::string_view name);
 

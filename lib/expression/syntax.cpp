@@ -206,7 +206,7 @@ class Parser {
 
   /// For those who write |v| as in mathematics.
   [[nodiscard]] std::string operand_hint() const {
-    if (token_.text != "|" && token_.text != "||") return std::string(hint());
+    if (token_.text != "|" && token_.text != "||") return hint();
     const std::size_t start = token_.offset + 1;
     const std::size_t end = place_.text.find('|', start);
     const std::string_view inside = place_.text.substr(start, std::min(end, place_.text.size()) - start);
@@ -222,8 +222,10 @@ class Parser {
   }
 
   /// For those who write another language.
-  [[nodiscard]] std::string_view hint() const {
-    if (token_.text == "=") return equals_hint();
+  [[nodiscard]] std::string hint() const {
+    if (token_.kind == TokenKind::unknown && (static_cast<unsigned char>(token_.text.front()) & 0x80U) != 0)
+      return meant_sign(token_.text);
+    if (token_.text == "=") return std::string(equals_hint());
     if (token_.text == "&") return ", did you mean '&&'?";
     if (token_.text == "|") return ", did you mean '||'?";
     if (token_.text == "%") return ", did you mean 'mod(a, b)'?";

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/json.hpp"
+#include "spec/same_letters.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -32,6 +33,12 @@ std::string_view expected_at(const JsonText& json, std::size_t start, JsonLevel 
   if (level == JsonLevel::kList) return is_opening_or_comma(last) ? "a value" : "',' or ']'";
   if (is_opening_or_comma(last)) return "a key in double quotes";
   return is_opening_or_comma(json.token(json.token_before(before))) ? "':'" : "',' or '}'";
+}
+
+/// ", did you mean 'true'?" for words of JSON in other letters and of other languages.
+std::string meant_literal(std::string_view token) {
+  if (token == "None" || token == "nil") return ", did you mean 'null'?";
+  return same_letters(token, {"true", "false", "null"});
 }
 
 /// @param token a string that no parser takes, `wrong` its first wrong byte
@@ -75,7 +82,8 @@ void fail_syntax(const JsonText& json, std::size_t read, JsonLevel level) {
     if (json.token(before) == ",")
       json.fail(fmt::format("expected no comma before '{}', found a trailing one", token), before);
   }
-  json.fail(fmt::format("expected {}, found {}", expected_at(json, start, level), json.found_at(start)),
+  json.fail(fmt::format("expected {}, found {}{}", expected_at(json, start, level), json.found_at(start),
+                        meant_literal(token)),
             start);
 }
 

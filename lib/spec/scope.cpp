@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "expression/tape_builder.hpp"
 #include "spec/dependency_order.hpp"
+#include "spec/same_letters.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/time_text.hpp"
@@ -308,8 +309,10 @@ Program Scope::link_text(const Node& node, ExpectedType expected) const {
   constexpr std::size_t kTooShort = 2;  // such names differ by a letter anyway
   const auto lookup = [&](std::string_view name) {
     Binding binding = find(name);
-    if (std::holds_alternative<NotDefined>(binding) && name.size() > kTooShort)
-      binding = NotDefined{suggestion(name, names_.all())};
+    if (std::holds_alternative<NotDefined>(binding)) {
+      const std::vector<std::string> known = names_.all();
+      binding = NotDefined{name.size() > kTooShort ? suggestion(name, known) : same_letters(name, known)};
+    }
     return binding;
   };
   return link(node.text(), lookup, expected, node.pointer());

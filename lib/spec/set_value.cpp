@@ -16,6 +16,7 @@
 #include "spec/json_document.hpp"
 #include "spec/json_text.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/read_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -55,7 +56,7 @@ std::vector<std::string> split_at_dots(const std::string& path) {
   for (std::size_t begin = 0; begin <= path.size(); begin += steps.back().size() + 1)
     steps.push_back(path.substr(begin, path.find('.', begin) - begin));
   if (std::find(steps.begin(), steps.end(), "") == steps.end()) return steps;
-  throw UsageError("expected keys with dots between, as states.0.step, found " + quote_text(path));
+  throw UsageError("expected keys with dots between, e.g. states.0.step, found " + quote_text(path));
 }
 
 /// The tokens of a JSON pointer, RFC 6901.
@@ -109,6 +110,7 @@ class PlaceFinder {
 
   /// Refuses to add a constant or a definition, since nothing would refer to it.
   void check_may_add(const std::vector<std::string>& steps, std::size_t missing) const {
+    if (missing == 0) check_is_key(steps);
     if (missing > 1 || steps.size() < 2 || (steps[0] != "constants" && steps[0] != "definitions")) return;
     std::vector<std::string> known;
     if (missing == 1) {
@@ -118,6 +120,26 @@ class PlaceFinder {
     if (expected.empty())
       expected = known.empty() ? ": there are none" : ", expected " + quote_list(known, "or");
     fail(fmt::format("{} is not one of the {}{}", quote_text(steps[1]), steps[0], expected), path_);
+  }
+
+  /// Refuses a name at the top level that is no key there, but the name of something in the spec.
+  void check_is_key(const std::vector<std::string>& steps) const {
+    if (parse_json(spec_schema()).at("properties").contains(steps[0])) return;
+    for (const char* key : {"constants", "definitions", "states", "inputs", "disturbances", "agents"}) {
+      const auto found = at_->find(key);
+      if (found == at_->end() || !has_name(*found, steps[0])) continue;
+      fail(fmt::format("no key {} in the spec, did you mean {}?", quote_text(steps[0]),
+                       quote_text(fmt::format("{}.{}", key, fmt::join(steps, ".")))),
+           path_);
+    }
+  }
+
+  /// Whether an object has the key, or a list an element with the name.
+  static bool has_name(const Json& part, const std::string& name) {
+    if (part.is_object()) return part.contains(name);
+    return part.is_array() && std::any_of(part.begin(), part.end(), [&](const Json& element) {
+             return element.is_object() && element.value("name", Json()) == name;
+           });
   }
 
   void enter_element(const std::string& step) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "spec/same_letters.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -66,6 +68,7 @@ std::string quote_list(const std::vector<std::string>& names, std::string_view j
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
+  if (const std::string same = same_letters(name, known); !same.empty()) return same;
   // No spelling mistake is longer than this, and the distance costs the product of the lengths.
   constexpr std::size_t kLongestName = 200;
   if (name.size() > kLongestName) return {};

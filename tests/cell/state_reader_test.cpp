@@ -77,6 +77,15 @@ TEST(StateReader, ErrorsOfCsvNameTheLine) {
   EXPECT_EQ(defect("x,y\n1,\"2\n"), "a quotation mark is not closed (input, line 2)");
 }
 
+TEST(StateReader, TablesWithDecimalCommasAreNamed) {
+  const std::string expected = "expected commas between columns and points in numbers, found ";
+  EXPECT_EQ(defect("x;y\n1,5;2\n"), expected + "semicolons (input, line 1)");
+  EXPECT_EQ(defect("x\ty\n1\t2\n"), expected + "tabs (input, line 1)");
+  EXPECT_EQ(defect("x,y\n1,5,2,5\n"),
+            "expected 2 values, found 4; numbers need a decimal point, not a comma (input, line 2)");
+  EXPECT_EQ(defect("x,y\n\"1,5\",2\n"), "expected a decimal point, found '1,5' (input, line 2, x)");
+}
+
 TEST(StateReader, ErrorsOfJsonNameTheLine) {
   EXPECT_EQ(defect("{\"x\": 1}\n"), "no value for the state 'y' (input, line 1)");
   EXPECT_EQ(defect("{\"x\":1,\"y\":2}\n[1, 2]\n"), "expected a JSON object a line (input, line 2)");

@@ -52,6 +52,31 @@ class Cases(Case):
         self.assertIn(code, (0, 1, 130, -signal.SIGKILL))
         return code not in (0, 1)
 
+    def interrupted(self, *arguments, when):
+        """What is said last by a run that a signal ends as soon as `when()` holds."""
+        process = subprocess.Popen(
+            [PROGRAM, "analyze", CIRCLE, "--refine", "8", "-o", "out.h5", *CHECKPOINT, "--progress", "log", *arguments],
+            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        )  # fmt: skip
+        with process:
+            process.stderr.readline()
+            while not when() and process.poll() is None:
+                time.sleep(0.001)
+            process.send_signal(signal.SIGINT)
+            output, errors = process.communicate(timeout=120)
+        self.assertEqual((process.returncode, output), (130, b""))
+        return errors.decode().splitlines()[-1]
+
+    def test_an_interrupt_says_how_to_continue(self):
+        line = self.interrupted(*OFTEN, "--json", when=(self.folder / "run.ckpt").exists)
+        self.assertEqual(line, "coordreq: error: interrupted; --resume continues from the checkpoint (run.ckpt)")
+
+    def test_an_interrupt_says_that_nothing_is_saved(self):
+        line = self.interrupted(when=lambda: True)
+        expected = "coordreq: error: interrupted; no checkpoint had been saved, see --checkpoint-every (run.ckpt)"
+        self.assertEqual(line, expected)
+        self.assertEqual(self.files(), [])
+
     def analyze_to(self, name, *arguments):
         return self.analyze_and_say(name, *arguments)[0]
 

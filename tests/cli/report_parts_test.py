@@ -151,7 +151,7 @@ class Cases(PageCase):
 
     def test_figures_of_the_network(self):
         text = self.words_of(self.report(self.example("intersection_network.json")))
-        self.assertIn("Agents that take care because messages may be lost stay safe from 81 % of the states that can be kept safe", text)
+        self.assertIn("Agents with robust re-synthesis stay safe from 81 % of the states that can be kept safe", text)
         self.assertIn("The network: at most 1 of any 3 steps lost.", text)
         self.assertIn("11 (at first) first+second 213,477 81 % 10 first|second 210,233 79 % 01 first+second 220,952 83 %", text)
 
@@ -171,7 +171,7 @@ class Cases(PageCase):
         self.open()
         self.show("freedom")
         self.assertEqual(self.options(), ["first", "second"])
-        self.assertEqual(self.legend(), ["not safe", "cannot be kept safe on this grid, whatever is coordinated"])
+        self.assertEqual(self.legend(), ["not safe", "cannot be kept safe on this grid, even with full coordination"])
         self.assertEqual(self.browser.run("document.getElementById('scale').innerText").split(), ["0", "%", "all"])
         told = set()
         with h5py.File(self.folder / "out.h5") as file:
@@ -181,8 +181,8 @@ class Cases(PageCase):
                 index = tuple(int(k) for k in re.search(r"index \((.*)\)", cell["Cell"])[1].split(", "))
                 for number, agent in enumerate(("first", "second")):
                     stored = float(file["convention_freedom"][(number, *index)])
-                    text = "-" if stored != stored else "all of its actions" if stored == 1 else f"{100 * stored:.4g} % of its actions"
-                    self.assertEqual(cell[f"Convention leaves {agent}"], text)
+                    text = "-" if stored != stored else "all" if stored == 1 else f"{100 * stored:.4g} %"
+                    self.assertEqual(cell[f"Convention: actions of {agent}"], text)
                     told.add(text)
         self.assertGreater(len(told), 2)
         self.assert_is_answer(cell, "first|second")
@@ -236,6 +236,25 @@ class Cases(PageCase):
         self.assert_picture_changes(lambda: self.visit("Enter"))
         self.assertTrue(self.browser.run("document.getElementById('way').hidden"))
         self.assert_is_quiet()
+
+    def test_the_page_opens_at_what_fails(self):
+        requirements = {
+            "risk": {"where": "p1 <= -8 and p2 <= -8 and v1 == 1 and v2 == 1", "max_risk": 1e-9},
+            "delay": {"where": "p1 <= -8 and p2 <= -8 and v1 == 1 and v2 == 1", "min_delay": 30},
+            "collision_time": {"where": "p1 >= 0 and p2 >= 0", "invariant": True},
+        }
+        for kind, requirement in requirements.items():
+            with self.subTest(kind=kind):
+                spec = {**self.example("crossing_risk.json"), "requirements": [{"name": "enough", **requirement}]}
+                text = self.words_of(self.report_that_fails(spec))
+                self.assertLess(text.index("What is required"), text.index("How long may the agents be silent?"))
+                self.open()
+                self.assertEqual(self.browser.run("document.querySelector('#kinds input:checked').value"), kind)
+                self.assertIn("Counterexample of “enough”", self.browser.run("document.getElementById('way').innerText"))
+        # Where nothing fails the answer comes first.
+        holds = {"name": "enough", "where": "p1 <= -8 and p2 <= -8 and v1 == 1 and v2 == 1", "max_risk": 1}
+        text = self.words_of(self.report({**self.example("crossing_risk.json"), "requirements": [holds]}))
+        self.assertLess(text.index("How long may the agents be silent?"), text.index("What is required"))
 
     def visit(self, key):
         self.browser.press(key)

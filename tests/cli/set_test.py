@@ -147,12 +147,12 @@ class Cases(Case):
     def test_no_setting(self):
         for setting in ("constants.R", "=1", ""):
             with self.subTest(setting=setting):
-                message = f"expected PATH=VALUE, as constants.R=0.7, found '{setting}' (--set)"
+                message = f"expected PATH=VALUE, e.g. constants.R=0.7, found '{setting}' (--set)"
                 self.assert_fails(2, message, "analyze", "spec.json", "--set", setting)
         self.write("spec.json", SPEC)
         self.assert_fails(
             2,
-            "expected keys with dots between, as states.0.step, found 'states..step'",
+            "expected keys with dots between, e.g. states.0.step, found 'states..step'",
             *("analyze", "spec.json", "--set", "states..step=1"),
         )
         self.assert_fails(

@@ -144,8 +144,9 @@ TEST(SetValue, ConstantsAreNotAdded) {
 }
 
 TEST(SetValue, BrokenPathsAndValuesAreErrors) {
-  EXPECT_EQ(error_of(kText, "a..b", "1"), "expected keys with dots between, as states.0.step, found 'a..b'");
-  EXPECT_EQ(error_of(kText, "", "1"), "expected keys with dots between, as states.0.step, found ''");
+  EXPECT_EQ(error_of(kText, "a..b", "1"),
+            "expected keys with dots between, e.g. states.0.step, found 'a..b'");
+  EXPECT_EQ(error_of(kText, "", "1"), "expected keys with dots between, e.g. states.0.step, found ''");
   EXPECT_EQ(error_of(kText, "name", "[1,"), "expected JSON, since it starts like it, found '[1,' (name)");
   EXPECT_EQ(error_of(kText, "name", "\xff"), "expected UTF-8 text as the value (name)");
   EXPECT_EQ(error_of(kText, "constants.\xff", "1"),

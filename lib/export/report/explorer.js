@@ -146,9 +146,10 @@ class Explorer {
   }
 
   async showWay(way, sample) {
-    const { partition, cells } = data.ways[way];
+    const { partition, cells, kind } = data.ways[way];
     const map = data.maps.findIndex((other) => other.kind === "delay" && other.partition === partition);
-    await this.change({ way, kind: partition === null ? "collision_time" : "delay", ...(map >= 0 ? { map } : {}) });
+    const members = { ...this.wanted.members, [kind]: 0 }; // of a network the mode in which it begins
+    await this.change({ way, kind, members, ...(map >= 0 ? { map } : {}) });
     this.goTo(cells[sample]);
   }
 
@@ -285,8 +286,8 @@ class Explorer {
 
 function thinnedText(names) {
   return (
-    `There are more cells than this page can hold: of ${names.join(", ")} it has some values only, all shown with the ` +
-    "true numbers of their cells. The results file knows the others: coordreq query."
+    `There are more cells than this page can hold: of ${names.join(", ")} it has only some values, all shown with the ` +
+    "true numbers of their cells. The results file has the others: coordreq query."
   );
 }
 
@@ -303,8 +304,8 @@ function memberLabel(kind) {
 }
 
 function wayText({ requirement, independent, cells }) {
-  const alone = independent > 0 ? "filled dots while each acts alone, " : "";
-  return `Counterexample of “${requirement}”, ${grouped(cells.length)} ${cells.length === 1 ? "state" : "states"} drawn over these two axes: ${alone}hollow ones when it is too late.`;
+  const alone = independent > 0 ? "filled dots during independent choice, " : "";
+  return `Counterexample of “${requirement}”, ${grouped(cells.length)} ${cells.length === 1 ? "state" : "states"} drawn over these two axes: ${alone}hollow dots when it is too late.`;
 }
 
 function rowOf(name, text) {
