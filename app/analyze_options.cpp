@@ -10,23 +10,24 @@ namespace coordreq {
 void declare_files(Options& options, AnalyzeOptions& own) {
   options.option(own.output, "-o,--output", "FILE",
                  "Results file (default: NAME.h5 in the current folder), or a folder for several", file_name);
+  options.flag(own.is_forced, "--force", "Replace a file of the name NAME.h5 also if it is not of this spec");
   options.option(own.junit, "--junit", "FILE", "Also write the requirements as a JUnit report", file_name);
   declare_settings(options, own.settings);
   options.repeatable(
       own.sweeps, "--sweep", "PATH=VALUE,VALUE",
-      "Analyse with each of these values and print a table, refine=1,2,4 with finer grids; repeated: "
-      "with each combination; results files are only written with -o",
+      "Analyse once for each value and print a table; refine=1,2,4 gives finer grids; repeated: every "
+      "combination; results files are written only with -o",
       parse_sweep);
 }
 
 /// The other two come after it, so that they can ask whether it was given.
 void declare_checkpoint(Options& options, std::optional<CheckpointOptions>& checkpoint, const char* takes) {
   options.option("--checkpoint", takes,
-                 "Save the work there from time to time; removed when the results are written",
+                 "Save the work here regularly; removed when the results have been written",
                  [&checkpoint](const auto& text, const auto& option) {
                    checkpoint = {.file = file_name(text, option)};
                  });
-  options.option("--checkpoint-every", "SECONDS", "How often (default: 60)",
+  options.option("--checkpoint-every", "SECONDS", "Time between two saves (default: 60)",
                  [&checkpoint, takes](const auto& text, const auto& option) {
                    if (!checkpoint)
                      throw UsageError(fmt::format("save where? expected --checkpoint {}", takes), option);

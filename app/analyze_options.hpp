@@ -20,6 +20,7 @@ struct AnalyzeOptions : CommonOptions {
   std::vector<SpecSetting> settings;
   std::vector<Sweep> sweeps;
   std::optional<std::string> output, junit;
+  bool is_forced = false;  ///< files under names that nobody has typed are replaced, whatever they are
   ProgressOptions progress;
   std::optional<CheckpointOptions> checkpoint;
   Ranks* ranks = nullptr;  ///< the processes that share the work; null: there is one

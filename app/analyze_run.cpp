@@ -22,6 +22,7 @@
 #include "app/progress_display.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
+#include "app/unasked_output.hpp"
 #include "reach/make_model.hpp"
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
@@ -40,7 +41,7 @@ class InterruptPolicy {
     if (progress.has_temporary && !delay_) delay_.emplace();
     if (!progress.has_temporary) delay_.reset();
     // After that: one that came before the end of the delay has been kept waiting.
-    if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    if (is_interrupted()) throw interruption();
   }
 
  private:
@@ -113,7 +114,12 @@ void check_interrupted(const std::string& place) {
 ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& options) {
   const std::string output = options.output.value_or(spec.name + ".h5");
   if (options.is_first()) check_files(spec, output, options);
+  if (options.is_first() && !options.output && !options.is_forced) check_replaces_own_results(output, spec);
   if (options.is_first() && options.junit) try_to_write(*options.junit);
+  if (options.is_first() && options.checkpoint) {
+    const bool is_folder = options.ranks != nullptr && options.ranks->count() > 1;
+    note_checkpoint(options.checkpoint->file, is_folder);
+  }
   const std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, options, "");
   if (!options.is_first()) return ExitCode::success;
   {

@@ -9,6 +9,7 @@
 
 #include "app/load_spec.hpp"
 #include "app/text.hpp"
+#include "app/unasked_output.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -78,6 +79,12 @@ void check_files(const std::vector<PlannedRun>& runs, const AnalyzeOptions& aske
   if (asked.junit) files.writes(*asked.junit, "the JUnit report", "--junit");
 }
 
+/// Names of several files are never typed. @throws UsageError
+void check_replaced(const std::vector<PlannedRun>& runs) {
+  for (const PlannedRun& run : runs)
+    if (run.spec && !run.output.empty()) check_replaces_own_results(run.output, *run.spec);
+}
+
 std::string swept_values(const PlannedRun& run) {
   std::string text;
   for (const SpecSetting& value : run.values) text += fmt::format(" {}={}", value.path, value.value);
@@ -107,6 +114,7 @@ std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked) {
     if (writes && run.spec) run.output = (fs::path(asked.output.value_or("")) / results_name(run)).string();
   }
   check_files(runs, asked);
+  if (asked.is_first() && !asked.is_forced) check_replaced(runs);
   return runs;
 }
 

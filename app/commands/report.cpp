@@ -13,6 +13,7 @@
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
+#include "app/unasked_output.hpp"
 #include "base/json.hpp"
 #include "export/report_data.hpp"
 #include "export/report_page.hpp"
@@ -42,9 +43,13 @@ std::string page_of(const ResultsReader& results, ReportData& data) {
   data = report_data(results, shown_partitions(results));
   ReportPage page;
   page.title = printable(report_title(results.spec()));
-  page.summary = "<h1>" + html_line(report_title(results.spec())) + "</h1>\n" + report_task(results) +
-                 report_answer(results, data);
-  for (const ReportSection section : report_sections()) page.summary += section(results);
+  page.summary = "<h1>" + html_line(report_title(results.spec())) + "</h1>\n" + report_task(results);
+  // What fails comes first.
+  const bool is_failing = has_failed_requirement(results);
+  if (is_failing) page.summary += report_requirements(results);
+  page.summary += report_answer(results, data);
+  for (const ReportSection section : report_sections())
+    if (!is_failing || section != report_requirements) page.summary += section(results);
   page.details = report_details(results) + report_footer(results);
   page.data = std::move(data.json);
   return report_page(page);
@@ -66,7 +71,7 @@ std::string summary_text(const Json& summary, std::size_t partitions) {
   std::string text = fmt::format("report in {} ({})\n", printable(summary["output"].get<std::string>()),
                                  byte_size(summary["bytes"].get<std::uint64_t>()));
   if (!summary["every_cell"].get<bool>())
-    text += "not every cell has room in it: the sliders have some values only\n";
+    text += "it does not hold every cell: the sliders have some values only\n";
   if (summary["partitions"].size() < partitions)
     text += fmt::format("its pictures show {} of {} partitions\n", summary["partitions"].size(), partitions);
   return text;
@@ -75,6 +80,7 @@ std::string summary_text(const Json& summary, std::size_t partitions) {
 struct ReportOptions : CommonOptions {
   std::string results;
   std::optional<std::string> output;
+  bool is_forced = false;
 };
 
 ExitCode run(const ReportOptions& options) {
@@ -83,6 +89,8 @@ ExitCode run(const ReportOptions& options) {
   static_cast<void>(options.threads_for("a report needs", {.once = report_bytes(results)}));
   const std::string path = options.output.value_or(results.spec().name + ".html");
   check_output(options.results, path, "the report");
+  if (!options.output && !options.is_forced)
+    check_replaces_own_report(path, results.attributes().spec_sha256);
   AtomicFile file(path, "the report");
   ReportData data;
   const std::string page = page_of(results, data);
@@ -101,6 +109,8 @@ Run declare_report(Options& options) {
   declare_results(options, own->results);
   options.option(own->output, "-o,--output", "FILE", "HTML file (default: NAME.html in the current folder)",
                  file_name);
+  options.flag(own->is_forced, "--force",
+               "Replace a file of the name NAME.html also if it is no report on these results");
   declare_common(options, *own, {.threads = false});
   return [own] { return run(*own); };
 }
