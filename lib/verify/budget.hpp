@@ -12,7 +12,7 @@ namespace coordreq {
 /// unit is about what one operation takes in ball arithmetic.
 using Work = std::int64_t;
 /// Units that a slow core does in a second, or more.
-inline constexpr double kWorkOfSecond = 4e7;
+inline constexpr double kWorkOfSecond = 5e7;
 [[nodiscard]] inline Work work_of_seconds(double seconds) {
   constexpr double kMost = 1e18;
   return static_cast<Work>(std::min(seconds * kWorkOfSecond, kMost));
@@ -30,6 +30,9 @@ class Budget {
   [[nodiscard]] Work share(std::int64_t questions) const {
     return is_over() ? 0 : std::clamp<Work>(left_ / std::max<std::int64_t>(questions, 1), 1, most_of_one());
   }
+  /// Work that a part of an answer may take once it is begun, so that no block of so many questions takes
+  /// more than an eighth of the whole beyond their shares.
+  [[nodiscard]] Work of_part(std::int64_t block) const { return all_ / (8 * block); }
   void spend(Work used) { left_ -= used; }
   [[nodiscard]] Work all() const { return all_; }
   [[nodiscard]] Work spent() const { return all_ - left_; }

@@ -220,7 +220,7 @@ std::optional<std::vector<TubeStep>> FlowExtremes::enclosed(int steps) {
                         kOfMiddle * cell_ / steps, effort_.steps < kManySteps ? 4 : 6);
   const int pieces = disturbances_.empty() ? 1 : std::min(effort_.steps / 4, 8);
   return enclose_flow(field_, limits_, box_, period_, steps, pieces,
-                      [&](TubeStep& step) { matrix_work_ += middle.narrow(step); });
+                      [&](TubeStep& step) { field_.add_work(middle.narrow(step)); });
 }
 
 int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const {
@@ -264,10 +264,10 @@ std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t 
     const ArbMatrix by_state = columns(*steps_[k].slopes, n, 0, n);
     if (!steps_[k].transition) {
       steps_[k].transition = transition_matrix(by_state, step_);
-      matrix_work_ += work_of_transition(n, 0);
+      field_.add_work(work_of_transition(n, 0));
     }
     if (m > 0) {
-      matrix_work_ += work_of_transition(n, m);
+      field_.add_work(work_of_transition(n, m));
       const ArbMatrix within = result.of_start * transition_matrix(by_state, hull(Arb(), step_));
       result.of_disturbance[k] = within * columns(*steps_[k].slopes, n, n, m);
       if (arb_mat_is_finite(result.of_disturbance[k].get()) == 0) return std::nullopt;

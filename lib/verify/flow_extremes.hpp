@@ -36,9 +36,9 @@ class FlowExtremes : public NextValue {
   [[nodiscard]] bool has_extremes_on_faces() const override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return states_; }
 
-  [[nodiscard]] Work work() const override {
-    return field_.work() + trajectory_.repeated_work() + matrix_work_;
-  }
+  [[nodiscard]] Work work() const override { return field_.work(); }
+  void limit_work(Work most) override { field_.limit_work(most); }
+  [[nodiscard]] bool is_spent() const override { return field_.is_spent(); }
 
   [[nodiscard]] const std::vector<TubeStep>& steps() const { return steps_; }
   /// The extreme after so many steps.
@@ -75,7 +75,6 @@ class FlowExtremes : public NextValue {
   Arb step_;
   std::vector<TubeStep> steps_;
   std::vector<std::optional<std::optional<Influence>>> influences_;  ///< [steps]
-  Work matrix_work_ = 0;
 };
 
 }  // namespace coordreq

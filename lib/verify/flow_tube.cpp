@@ -6,6 +6,8 @@
 namespace coordreq {
 namespace {
 
+constexpr Work kOfHeldEnd = 40;
+
 /// The extreme derivative over a face that is cut where its bound is farthest off.
 Arb extreme_change(SeriesField& field, std::size_t i, const SpanBox& face,
                    const std::optional<ArbMatrix>& slopes, bool greatest, int pieces) {
@@ -35,6 +37,7 @@ class StepMaker {
       : field_(field), limits_(limits), duration_(duration), pieces_(pieces) {}
 
   std::optional<TubeStep> make(const SpanBox& start) {
+    field_.add_work(work_of_step(start));
     std::optional<Tube> tube = picard_tube(field_, all_of(start), duration_, limits_);
     if (!tube) return std::nullopt;
     step_ = {.tube = std::move(tube->box), .change = std::move(tube->change), .end = start};
@@ -45,6 +48,7 @@ class StepMaker {
       span = {end_of(start, i, false), end_of(start, i, true)};
       if (may_be_held(i, false) || may_be_held(i, true)) {
         held = true;
+        field_.add_work(kOfHeldEnd);
         span = held_end(i, span);
       }
     }
@@ -53,6 +57,12 @@ class StepMaker {
   }
 
  private:
+  /// Beside what the field does: boxes are copied for both faces of each state, and ends put together.
+  [[nodiscard]] Work work_of_step(const SpanBox& start) const {
+    const std::size_t n = field_.size();
+    return static_cast<Work>(2 * n * (20 + 2 * start.size() + 2 * n));
+  }
+
   [[nodiscard]] bool may_be_held(std::size_t i, bool above) const {
     const std::optional<Arb>& limit = above ? limits_[i].above : limits_[i].below;
     const Arb& tube = step_.tube[field_.variables()[i]];

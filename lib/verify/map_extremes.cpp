@@ -11,7 +11,9 @@ Work work_of_extreme(const SpanBox& box) {
   return 20 + 8 * static_cast<Work>(box.size());
 }
 
+/// Without slopes: the hull and the middle of each variable.
 Extreme natural_extreme(SeriesField& field, const SpanBox& box, const Arb& natural, bool greatest) {
+  field.add_work(16 * static_cast<Work>(box.size()));
   Extreme result{.bound = greatest ? natural.upper() : natural.lower()};
   for (const ArbSpan& span : box) result.start.push_back(span.middle());
   for (const std::uint32_t slot : field.variables()) result.excess.push_back(box[slot].width());

@@ -15,6 +15,8 @@ class MapExtremes : public NextValue {
   [[nodiscard]] Extremes extremes(std::size_t value, const Enough& enough) override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return map_.variables(); }
   [[nodiscard]] Work work() const override { return map_.work(); }
+  void limit_work(Work most) override { map_.limit_work(most); }
+  [[nodiscard]] bool is_spent() const override { return map_.is_spent(); }
   /// True if the value is that of `slot` and something that does not depend on it.
   [[nodiscard]] bool follows(const ArbBox& box, std::uint32_t slot);
 

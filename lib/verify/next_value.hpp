@@ -60,6 +60,10 @@ class NextValue {
   [[nodiscard]] virtual const std::vector<std::uint32_t>& divisible() const = 0;
   /// Done so far: the same for the same questions, whatever is remembered.
   [[nodiscard]] virtual Work work() const = 0;
+  /// From now on no more than so much is done; what is begun then ends without a bound.
+  virtual void limit_work(Work most) = 0;
+  /// Whether that ended what was asked last.
+  [[nodiscard]] virtual bool is_spent() const = 0;
 };
 
 /// The place that is taken for the extreme along a variable, and the excess of other places.

@@ -97,6 +97,11 @@ class OutwardPosts {
   }
 
  private:
+  /// The work that may be done for a choice, and for a piece that is begun.
+  struct Share {
+    Work most = 0;
+    Work of_piece = 0;
+  };
   /// A part of one of the boxes of a choice, which has open claims.
   struct Left {
     std::int64_t box = 0;
@@ -132,6 +137,7 @@ class OutwardPosts {
     std::vector<std::uint8_t> still_open(open_.size());
     const auto count = static_cast<std::int64_t>(open_.size());
     const std::int64_t block = effort.most_boxes == 1 ? 1024 : 64;
+    const Work of_piece = budget.of_part(block);
     std::size_t bytes = 0;
     std::int64_t looked_at = 0;
     const auto answered = [&](std::int64_t some) {
@@ -147,7 +153,7 @@ class OutwardPosts {
       if (!prover) prover = std::make_unique<PostProver>(spec_, grid_, group_);
       const Work before = prover->work();
       const auto place = static_cast<std::size_t>(i);
-      still_open[place] = settle(open_[place], effort, most, *prover) ? 0 : 1;
+      still_open[place] = settle(open_[place], effort, {most, of_piece}, *prover) ? 0 : 1;
       return prover->work() - before;
     };
     answer_within(budget, count, block, team, answer, answered);
@@ -159,9 +165,9 @@ class OutwardPosts {
   }
 
   /// @returns false if it is to be tried again
-  bool settle(Open& open, const PostEffort& effort, Work most, PostProver& prover) {
+  bool settle(Open& open, const PostEffort& effort, Share share, PostProver& prover) {
     const Odometer choice(choices_.counts(), open.choice);
-    const bool over = most == 0;
+    const bool over = share.most == 0;
     const std::vector<Claimed> all = claims_of(choice);
     std::vector<PostClaim> claims;
     std::vector<std::uint32_t> asked;
@@ -172,7 +178,7 @@ class OutwardPosts {
     if (asked.empty()) return true;
     const std::vector<PostProof> proofs =
         over ? std::vector<PostProof>(all.size(), {PostVerdict::open, "the budget ended"})
-             : prove(choice, claims, asked, open, effort, most, prover);
+             : prove(choice, claims, asked, open, effort, share, prover);
     bool settled = true;
     for (const std::uint32_t c : asked) {
       if (proofs[c].verdict == PostVerdict::open && !over && !is_last_) {
@@ -180,7 +186,8 @@ class OutwardPosts {
         continue;
       }
       open.settle(c);
-      if (over) left_open_ += static_cast<std::int64_t>(all[c].places.size());
+      const bool is_cut_off = over || (proofs[c].verdict == PostVerdict::open && proofs[c].is_cut_off);
+      if (is_cut_off) left_open_ += static_cast<std::int64_t>(all[c].places.size());
       for (const std::int64_t place : all[c].places) note(all[c].claim.target, place, proofs[c]);
     }
     return settled;
@@ -237,12 +244,14 @@ class OutwardPosts {
   /// Goes on with the parts that were left.
   [[nodiscard]] std::vector<PostProof> prove(const Odometer& choice, const std::vector<PostClaim>& claims,
                                              const std::vector<std::uint32_t>& asked, Open& open,
-                                             const PostEffort& effort, Work most, PostProver& prover) const {
+                                             const PostEffort& effort, Share share,
+                                             PostProver& prover) const {
     const std::unique_ptr<std::vector<Left>> before =
         std::exchange(open.left, std::make_unique<std::vector<Left>>());
     SpanBox slots = slots_;
     std::vector<PostProof> worst(claims.size());
     std::int64_t box = -1;
+    const Work begun = prover.work();
     choices_.for_each_piece(choice, slots, [&](const Odometer&) {
       ++box;
       std::vector<OpenPart> parts;
@@ -253,12 +262,15 @@ class OutwardPosts {
           if (one.box == box) parts.push_back(one.part);
         }
       }
-      std::vector<PostProof> proofs = prover.prove(slots, claims, parts, effort, most);
+      const Work left = std::max<Work>(share.most - (prover.work() - begun), 0);
+      std::vector<PostProof> proofs = prover.prove(slots, claims, parts, effort, left, share.of_piece);
       for (OpenPart& part : parts) open.left->push_back({box, std::move(part)});
       bool all_wrong = true;
       for (const std::uint32_t c : asked) {
-        if (proofs[c].verdict != PostVerdict::holds && worst[c].verdict != PostVerdict::wrong)
+        if (proofs[c].verdict != PostVerdict::holds && worst[c].verdict != PostVerdict::wrong) {
+          proofs[c].is_cut_off = proofs[c].is_cut_off || worst[c].is_cut_off;
           worst[c] = std::move(proofs[c]);
+        }
         all_wrong = all_wrong && worst[c].verdict == PostVerdict::wrong;
       }
       return !all_wrong;
@@ -299,7 +311,7 @@ class OutwardPosts {
   PieceChoices choices_;
   std::vector<Open> open_;
   std::deque<Tally> tallies_;                ///< [target]
-  std::atomic<std::int64_t> left_open_ = 0;  ///< entries for which there was no work left
+  std::atomic<std::int64_t> left_open_ = 0;  ///< entries that are open for want of work
   bool is_last_ = false;
 };
 

@@ -44,10 +44,13 @@ class OutwardTubes {
   TubeFinding run(Budget& budget, ThreadTeam& team) {
     std::vector<std::unique_ptr<FlowExtremes>> flows(static_cast<std::size_t>(team.size()));
     const auto count = static_cast<std::int64_t>(asked_.size());
-    answer_within(budget, count, 1024, team, [&](std::int64_t i, Work most, int worker) {
+    constexpr std::int64_t kBlock = 1024;
+    const Work of_tube = budget.of_part(kBlock);
+    answer_within(budget, count, kBlock, team, [&](std::int64_t i, Work most, int worker) {
       auto& flow = flows[static_cast<std::size_t>(worker)];
       if (!flow) flow = std::make_unique<FlowExtremes>(spec_, influences_, target_.step.get_d());
       const Work before = flow->work();
+      flow->limit_work(std::max(most, of_tube));
       check(Odometer(choices_.counts(), asked_[static_cast<std::size_t>(i)]), before + most, *flow);
       return flow->work() - before;
     });
@@ -64,9 +67,11 @@ class OutwardTubes {
     for (; !claimed_.find(place); place += stride) ++k;
     const bool unbounded = tally_.is_unbounded(place);
     std::vector<OwnTube> own;
-    const bool is_over = flow.work() >= end;
+    bool is_cut_off = false;
     for (const Effort& effort : kEfforts) {
-      if (unbounded || flow.work() >= end || tally_.is_enough(place, k, own)) break;
+      if (unbounded || tally_.is_enough(place, k, own)) break;
+      is_cut_off = flow.work() >= end;
+      if (is_cut_off) break;
       std::optional<std::vector<OwnTube>> next = tubes(choice, flow, effort);
       if (next) own = std::move(*next);
     }
@@ -75,7 +80,7 @@ class OutwardTubes {
       if (unbounded) tally_.add_unbounded();
       if (unbounded) continue;
       tally_.add(place, k, own);
-      if (is_over) ++left_open_;
+      if (is_cut_off) ++left_open_;
     }
   }
 
@@ -125,7 +130,7 @@ class OutwardTubes {
   std::vector<std::int64_t> asked_;  ///< numbers of choices
   SpanBox slots_;
   TubeTally tally_;
-  std::atomic<std::int64_t> left_open_ = 0;            ///< tubes for which there was no work left
+  std::atomic<std::int64_t> left_open_ = 0;            ///< tubes that are open for want of work
   std::size_t moving_ = 0;                             ///< place among the moving states
   std::size_t own_ = 0;                                ///< among the variables of choices_
   std::vector<std::vector<RationalInterval>> places_;  ///< [own index][piece]

@@ -32,6 +32,8 @@ constexpr std::size_t kCuts = 4;  ///< of each variable
 /// it, only more steps, and without it the whole is not proven.
 constexpr std::size_t kMostCuts = 40;
 
+constexpr const char* kNoWorkLeft = "its share of the budget ended";
+
 /// Moves the claims that are not proven elsewhere to what is left: those that are open there.
 void leave(OpenPart& part, const std::vector<PostProof>& proofs, std::vector<OpenPart>& left) {
   OpenPart rest{.cuts = part.cuts, .claims = {}};
@@ -65,7 +67,8 @@ PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const Po
 /// left, with all others for the claims that are open on it: these are not proven this time. The next time it
 /// comes first, so that what has no chance costs one enclosure.
 std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
-                                         std::vector<OpenPart>& parts, const PostEffort& effort, Work most) {
+                                         std::vector<OpenPart>& parts, const PostEffort& effort, Work most,
+                                         Work of_piece) {
   const Work end = work() + most;
   std::vector<PostProof> proofs(claims.size());
   std::vector<Piece> pending;
@@ -77,12 +80,16 @@ std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<P
     pending.pop_back();
     leave(piece.part, proofs, parts);
     if (piece.part.claims.empty()) continue;
-    const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && work() < end &&
-                         piece.part.cuts.size() < kMostCuts;
+    const bool has_cuts =
+        boxes + static_cast<int>(pending.size()) < effort.most_boxes && piece.part.cuts.size() < kMostCuts;
+    const bool may_cut = has_cuts && work() < end;
     std::vector<PostProof> own(claims.size());
+    next_->limit_work(std::max(end - work(), of_piece));
     const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
     std::erase_if(piece.part.claims, [&](std::uint32_t c) {
       const bool is_open = own[c].verdict == PostVerdict::open;
+      if (is_open && next_->is_spent()) own[c].why = kNoWorkLeft;
+      own[c].is_cut_off = is_open && (next_->is_spent() || (cut && has_cuts && !may_cut));
       if (own[c].verdict == PostVerdict::wrong || (is_open && !(may_cut && cut))) proofs[c] = own[c];
       return !is_open;
     });

@@ -27,7 +27,8 @@ enum class PostVerdict : std::uint8_t {
 };
 struct PostProof {
   PostVerdict verdict = PostVerdict::holds;
-  std::string why;  ///< where it ends, and from where; or why nothing is proven
+  std::string why;          ///< where it ends, and from where; or why nothing is proven
+  bool is_cut_off = false;  ///< open, and there was no work left to go on
 };
 
 /// A part of a box, by the cuts that lead to it, and the claims that are open on it.
@@ -60,11 +61,11 @@ class PostProver {
   /// @param box where the present state can be
   /// @param parts of the box on which claims are to be proven; is set to those on which they are still open.
   ///   A part without cuts is the whole box
-  /// @param most work; a piece that is begun is finished
+  /// @param most work; a piece that is begun may go on beyond it, but takes no more than `of_piece` then
   /// @returns one a claim
   [[nodiscard]] std::vector<PostProof> prove(const SpanBox& box, const std::vector<PostClaim>& claims,
                                              std::vector<OpenPart>& parts, const PostEffort& effort,
-                                             Work most);
+                                             Work most, Work of_piece);
   /// Done so far.
   [[nodiscard]] Work work() const { return next_->work(); }
 

@@ -102,7 +102,11 @@ bool Trajectory::advance(ArbBox& box, const Arb& duration, double tolerance) {
     if (integrate(end, duration, tolerance)) known.end = std::move(end);
     known.work = field_->work() - before;
   } else {
-    repeated_work_ += known.work;
+    field_->add_work(known.work);  // what is remembered costs as much: so others have no say in the budget
+  }
+  if (field_->is_spent()) {
+    if (is_new) known_.erase(entry);  // another question may have more work left
+    return false;
   }
   if (!known.end) return false;
   box = *known.end;
@@ -114,7 +118,7 @@ bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance, i
   std::uint32_t parts = kFinest;  // not what did before: that would let one question change another
   may_double_ = true;
   while (left > 0) {
-    if (--most < 0) return false;
+    if (--most < 0 || field_->is_spent()) return false;
     parts = std::min(parts, left);
     const Arb share(static_cast<double>(parts) / kFinest);
     std::optional<ArbBox> next = step(box, duration * share, tolerance * share.approximately(), parts == 1);

@@ -19,7 +19,8 @@ class Trajectory {
 
   /// @param duration a point; @param tolerance of the end, in the units of each state; a few halvings later
   /// a step is taken all the same
-  /// @returns false if the solution may not last so long; then the box is not changed
+  /// @returns false if the solution may not last so long, or the work of the field is spent; then the box is
+  /// not changed
   [[nodiscard]] bool advance(ArbBox& box, const Arb& duration, double tolerance);
   /// advance() without remembering the result, for durations that are asked about once.
   /// @param most parts of the duration that are tried at most
@@ -30,8 +31,6 @@ class Trajectory {
   /// @returns nothing where the remainder is larger than the tolerance
   [[nodiscard]] std::optional<ArbBox> analytic_step(const ArbBox& box, const ArbBox& tube,
                                                     const Arb& duration, double tolerance, slong terms);
-  /// Work of the field that remembered results have saved.
-  [[nodiscard]] Work repeated_work() const { return repeated_work_; }
 
  private:
   struct Order {
@@ -53,7 +52,6 @@ class Trajectory {
   SeriesField* field_;
   bool may_double_ = true;                ///< a step of twice its length looks promising
   std::map<ArbBox, Known, Order> known_;  ///< by box and duration
-  Work repeated_work_ = 0;
 };
 
 /// The limits of a state under `stop`: points at which it is held while its derivative points out.

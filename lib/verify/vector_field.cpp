@@ -13,6 +13,13 @@ constexpr Work kOfCall = 4;
 /// States that turn more often count as anywhere.
 constexpr long kMostTurnsSeen = 4;
 
+/// No number at all.
+Arb unknown() {
+  Arb result;
+  arb_indeterminate(result.get());
+  return result;
+}
+
 /// Where a state is that goes round, in parts: a point on its upper end is at the lower one.
 std::vector<Arb> places_on_ring(const Seam& seam, const Arb& range) {
   const Rational period = seam.upper - seam.lower;
@@ -104,6 +111,7 @@ const ArbBox* SeriesField::seen_whole(const ArbBox& box, std::optional<std::size
 }
 
 Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
+  if (is_spent()) return unknown();
   if (seams_.empty()) {
     put(equation, box);
     return run(equation, 1)[0];
@@ -118,6 +126,7 @@ Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
 }
 
 std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const ArbBox& box) {
+  if (is_spent()) return std::nullopt;
   const ArbBox* const whole = seen_whole(box, equation);
   if (whole == nullptr) return std::nullopt;
   put(equation, *whole);
@@ -152,6 +161,7 @@ std::optional<std::vector<ArbSeries>> SeriesField::taylor(const ArbBox& box, slo
   if (whole == nullptr) return std::nullopt;
   put(*whole);
   for (slong known = 1; known < length; ++known) {
+    if (is_spent()) return std::nullopt;
     std::vector<Arb> next;
     for (std::size_t i = 0; i < equations_.size(); ++i) {
       const Arb slope = extend(i, known)[known - 1];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,9 +35,15 @@ class SeriesField {
 
   [[nodiscard]] std::size_t size() const { return equations_.size(); }
   /// Done so far.
-  [[nodiscard]] Work work() const { return work_; }
+  [[nodiscard]] Work work() const { return std::min(work_, end_); }
   /// Counts operations of others that go with what it does.
   void add_work(Work of_others) { work_ += of_others; }
+  /// From now on no more than so much is done: then nothing has a value, slopes, or a series.
+  void limit_work(Work most) {
+    work_ = work();
+    end_ = most < kNoEnd - work_ ? work_ + most : kNoEnd;
+  }
+  [[nodiscard]] bool is_spent() const { return work_ > end_; }
   /// Slots of x, then of w.
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
 
@@ -69,7 +77,9 @@ class SeriesField {
   std::vector<Seam> seams_;
   std::vector<ArbSeries> slots_;
   ArbBox part_;  ///< a box as it is seen at a seam
+  static constexpr Work kNoEnd = std::numeric_limits<Work>::max();
   Work work_ = 0;
+  Work end_ = kNoEnd;
 };
 
 }  // namespace coordreq

@@ -67,7 +67,7 @@ struct Verification {
   struct {
     Work spent = 0;
     Work budget = 0;
-    std::int64_t left_open = 0;  ///< reachable sets that are not confirmed because the budget was over
+    std::int64_t left_open = 0;  ///< reachable sets that are not confirmed for want of work
   } work;
   std::vector<Finding> findings;
 

@@ -131,7 +131,7 @@ TEST(PostProver, ProvesWhatSolutionsNeed) {
     PostProver prover(spec, grid, group);
     std::vector<OpenPart> parts = {{.cuts = {}, .claims = {0, 1}}};
     const std::vector<PostProof> proofs =
-        prover.prove(box, {{0, x}, {1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000);
+        prover.prove(box, {{0, x}, {1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000, 0);
     return std::pair(proofs[0].verdict, proofs[1].verdict);
   };
   EXPECT_EQ(verdicts({9, 10}, {8, 14}, 64), std::pair(PostVerdict::holds, PostVerdict::holds));
@@ -145,7 +145,7 @@ TEST(PostProver, ProvesWhatSolutionsNeed) {
     PostVerdict verdict = PostVerdict::open;
     int rounds = 0;
     for (int boxes = 1; verdict == PostVerdict::open && boxes <= 64; boxes *= 4, ++rounds)
-      verdict = prover.prove(box, {{1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000)[0].verdict;
+      verdict = prover.prove(box, {{1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000, 0)[0].verdict;
     EXPECT_EQ(parts.empty(), verdict != PostVerdict::open);
     return std::pair(verdict, rounds);
   };
@@ -253,6 +253,54 @@ TEST(MapExtremes, EnclosesWhatIsNot) {
 TEST(MapExtremes, AnUndefinedMapHasNoBounds) {
   EXPECT_FALSE(range_of(spec_of("sqrt(x)", "0", "", "discrete"), {-1, 1}, {0, 0}));
   expect_tight(range_of(spec_of("sqrt(x)", "0", "", "discrete"), {0, 1}, {0, 0}), 0, 1, 1e-6);
+}
+
+/// The flow of Van der Pol's equation from a cell. @param most work
+struct Spent {
+  bool found = false;
+  Work work = 0;
+};
+Spent enclosed_within(FlowExtremes& flow, Work most) {
+  SpanBox box(3);
+  box[0] = span_of(Rational(1), Rational(5, 4));
+  box[1] = span_of(Rational(-1), Rational(-3, 4));
+  const Work before = flow.work();
+  flow.limit_work(most);
+  const auto never = [](const Arb&, const Arb&) { return false; };
+  bool found = flow.enclose(box, {16, 1e-6});
+  if (found) {
+    const Extremes ends = flow.extremes(0, never);
+    found = ends.least.attained && ends.greatest.attained;
+  }
+  return {found, flow.work() - before};
+}
+
+TEST(Enclosure, StopsAtTheLimitOfItsWork) {
+  const SystemSpec spec = spec_of("y", "2*(1 - x^2)*y - x");
+  const Influences influences = influences_on(spec, 0);
+  FlowExtremes flow(spec, influences, 1.0);
+  const Spent all = enclosed_within(flow, 1'000'000'000);
+  ASSERT_TRUE(all.found);
+  ASSERT_FALSE(flow.is_spent());
+  for (const Work most : {Work{0}, all.work / 100, all.work / 2, all.work - 1}) {
+    const Spent some = enclosed_within(flow, most);
+    EXPECT_TRUE(flow.is_spent()) << most;
+    EXPECT_FALSE(some.found) << most;
+    EXPECT_EQ(some.work, most);
+  }
+  const Spent again = enclosed_within(flow, all.work);
+  EXPECT_TRUE(again.found);
+  EXPECT_FALSE(flow.is_spent());
+}
+
+TEST(Enclosure, WhatIsRememberedCostsAsMuchAsWhatIsNot) {
+  const SystemSpec spec = spec_of("y", "2*(1 - x^2)*y - x");
+  const Influences influences = influences_on(spec, 0);
+  FlowExtremes flow(spec, influences, 1.0);
+  const Spent first = enclosed_within(flow, 1'000'000'000);
+  const Spent second = enclosed_within(flow, 1'000'000'000);
+  EXPECT_TRUE(second.found);
+  EXPECT_EQ(first.work, second.work);
 }
 
 }  // namespace
