@@ -68,8 +68,8 @@ Json sets_json(const ResultsReader& results, std::vector<ReportMap>& maps,
 
 /// The kind of the map that shows what is required.
 std::string kind_of_map(const ResultsReader& results, RequirementKind kind) {
-  if (kind == RequirementKind::invariant || !results.has(path_of(kind))) return "collision_time";
-  return results.field(path_of(kind)).shown.map.kind;
+  const std::string path = kind == RequirementKind::invariant ? "" : dataset_of(kind, results.spec()).path;
+  return path.empty() || !results.has(path) ? "collision_time" : results.field(path).shown.map.kind;
 }
 
 /// The cells that the counterexamples visit; `independent` steps lead out of K.
