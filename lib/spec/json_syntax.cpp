@@ -38,6 +38,7 @@ std::string_view expected_at(const JsonText& json, std::size_t start, JsonLevel 
 /// ", did you mean 'true'?" for words of JSON in other letters and of other languages.
 std::string meant_literal(std::string_view token) {
   if (token == "None" || token == "nil") return ", did you mean 'null'?";
+  if (token == "true" || token == "false" || token == "null") return "";
   return same_letters(token, {"true", "false", "null"});
 }
 

@@ -36,8 +36,10 @@ class Cases(Case):
     def both(self, spec, *arguments):
         """What analyze and validate say alike: (kind, place) of each."""
         found = self.warnings("analyze", spec, *arguments)
-        found = [own for own in found if own["kind"] not in ("empty", "no_silence")]
-        self.assertEqual(self.warnings("validate", spec, *arguments), found)
+        # validate knows K of small problems alone.
+        found = [own for own in found if own["kind"] not in ("empty", "no_silence", "standing")]
+        said = [own for own in self.warnings("validate", spec, *arguments) if own["kind"] != "standing"]
+        self.assertEqual(said, found)
         return [(own["kind"], own["place"]) for own in found]
 
     def texts(self, command, spec, kind):
@@ -159,7 +161,7 @@ class Cases(Case):
         spec = self.merge()
         (text,) = self.texts("analyze", spec, "standing")
         self.assertRegex(text, r"^at p1 = \S+, v1 = 0, p2 = \S+, v2 = 0 nothing moves with a1 = -1, a2 = -1, yet the cell is not in")
-        self.assertIn('what helps is a face of half-open cells at the limit ("lower": -0.125, "origin": 0.125), v1 as a', text)
+        self.assertIn('what can help: a face of half-open cells at the limit ("lower": -0.125, "origin": 0.125), v1 as a', text)
         # The state that it names is in S, and no cell of K.
         values = text[len("at ") : text.index(" nothing")].replace(" = ", "=").replace(", ", ",")
         creeping = self.kept(spec)

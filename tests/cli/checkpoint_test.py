@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import random
 import shutil
 import signal
@@ -52,15 +53,14 @@ class Cases(Case):
         self.assertIn(code, (0, 1, 130, -signal.SIGKILL))
         return code not in (0, 1)
 
-    def interrupted(self, *arguments, when):
-        """What is said last by a run that a signal ends as soon as `when()` holds."""
+    def interrupted(self, spec, *arguments, when):
+        """What is said last by a run that a signal ends as soon as `when(process)` holds."""
         process = subprocess.Popen(
-            [PROGRAM, "analyze", CIRCLE, "--refine", "8", "-o", "out.h5", *CHECKPOINT, "--progress", "log", *arguments],
+            [PROGRAM, "analyze", spec, "-o", "out.h5", *CHECKPOINT, *arguments],
             cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         )  # fmt: skip
         with process:
-            process.stderr.readline()
-            while not when() and process.poll() is None:
+            while not when(process) and process.poll() is None:
                 time.sleep(0.001)
             process.send_signal(signal.SIGINT)
             output, errors = process.communicate(timeout=120)
@@ -68,14 +68,25 @@ class Cases(Case):
         return errors.decode().splitlines()[-1]
 
     def test_an_interrupt_says_how_to_continue(self):
-        line = self.interrupted(*OFTEN, "--json", when=(self.folder / "run.ckpt").exists)
+        is_saved = (self.folder / "run.ckpt").exists
+        line = self.interrupted(CIRCLE, "--refine", "8", *OFTEN, "--json", when=lambda process: is_saved())
         self.assertEqual(line, "coordreq: error: interrupted; --resume continues from the checkpoint (run.ckpt)")
 
     def test_an_interrupt_says_that_nothing_is_saved(self):
-        line = self.interrupted(when=lambda: True)
+        """In the first stage, which takes seconds of the processor here."""
+        states = [{"name": name, "lower": -2, "upper": 2, "step": 0.002, "outside": "unsafe"} for name in "xy"]
+        equations = {"x": "sin(x*y) + u", "y": "cos(x) - x*y + v"}
+        dynamics = {"time": "continuous", "period": 0.5, "equations": equations}
+        self.write("slow.json", spec_with(states=states, dynamics=dynamics, safe="true"))
+
+        def is_at_work(process):
+            used = open(f"/proc/{process.pid}/stat").read().rsplit(")", 1)[1].split()
+            return int(used[11]) >= 0.5 * os.sysconf("SC_CLK_TCK")
+
+        line = self.interrupted("slow.json", when=is_at_work)
         expected = "coordreq: error: interrupted; no checkpoint had been saved, see --checkpoint-every (run.ckpt)"
         self.assertEqual(line, expected)
-        self.assertEqual(self.files(), [])
+        self.assertEqual(self.files(), ["slow.json"])
 
     def analyze_to(self, name, *arguments):
         return self.analyze_and_say(name, *arguments)[0]

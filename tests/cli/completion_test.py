@@ -57,7 +57,7 @@ class Cases(Case):
     def check_arguments(self, offers, command):
         specs, results = ["a.json", "sub"], ["b.h5", "sub", "with space.h5"]
         kinds = {"SPEC": specs, "RESULTS": results, "A": results, "B": results, "SHELL": ["bash", "fish", "zsh"]}
-        kinds["FILE"] = ["a.json", "b.h5", "c.txt", "sub", "with space.h5"]
+        kinds["FILE"] = kinds["LOG"] = ["a.json", "b.h5", "c.txt", "sub", "with space.h5"]
         kinds["COMMAND"] = sorted(program_help.commands(self.help_of()))
         arguments = program_help.arguments(self.help_of(command))
         words = [command]

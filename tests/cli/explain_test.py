@@ -90,7 +90,7 @@ class Cases(Case):
         delay, classes = self.delay(state)
         self.assertEqual(delay, other["delay"])
         self.assertEqual(len(classes[0]["actions"]) * len(classes[1]["actions"]), other["alone"])
-        self.assertTrue(any("more freedom can mean less silence" in text for text in found["sentences"]))
+        self.assertTrue(any("a larger action set can shorten the delay" in text for text in found["sentences"]))
 
     def test_convention_is_that_of_the_analysis(self):
         self.analyzed(dict(CORRIDOR, coordination={"convention": True}))

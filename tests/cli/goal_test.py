@@ -160,7 +160,7 @@ class Cases(Case):
             file["counterexample/seen"][0] = 3
         result = self.run_program("verify", "r.h5")
         self.assertEqual(result.returncode, 1)
-        self.assertIn(b"a run of the system itself where none is followed", result.stdout)
+        self.assertIn(b"a nominal simulation where none is made", result.stdout)
 
     def test_conventions_and_stored_actions_lead_to_the_goal(self):
         problem = spec(*TWO, WALK, "p == 0 or q == 0")

@@ -35,7 +35,7 @@ class Cases(ReportCase):
         self.assertIn(
             "The agents may be silent for 0.28 s (28 steps) from the best state (x1 = -0.01 m, x2 = 0 m).\n"
             "3.3 % of the states that can be kept safe need contact at once.\n"
-            "So manymay be silent\n"
+            "Sharemay be silent\n"
             "90 % of the statesfor at least 0.01 s (1 step)\n"
             "50 % of the statesfor at least 0.08 s (8 steps)\n"
             "10 % of the statesfor at least 0.2 s (20 steps)\n"
@@ -55,7 +55,7 @@ class Cases(ReportCase):
         self.assertIn("A short one\nsmall\n", text)
         self.assertIn("A state is safe if sum <= R, where sum = x + y, R = 6.", text)
         self.assertIn(
-            "So manymay be silent\n"
+            "Sharemay be silent\n"
             "77 % of the statesfor at least 0.5 s (1 step)\n"
             "50 % of the statesfor at least 0.5 s (1 step)\n"
             "10 % of the statesfor at least 1 s (2 steps)\n",

@@ -112,7 +112,7 @@ class Cases(Case):
             ("states.2.step=1", "no '2' in states, expected 'x' or 'y', or a number from 0 to 1 (states.2.step)"),
             ("states.z.step=1", "no 'z' in states, expected 'x' or 'y', or a number from 0 to 1 (states.z.step)"),
             ("name.first=1", "no 'first' in name: it is '\"small\"' (name.first)"),
-            ("constants.r=1", "'r' is not one of the constants, expected 'R' (constants.r)"),
+            ("constants.r=1", "'r' is not one of the constants, did you mean 'R'? (constants.r)"),
         ):
             with self.subTest(setting=setting):
                 self.assert_fails(2, message, "analyze", "spec.json", "--set", setting)

@@ -364,7 +364,7 @@ int main(void) {
         self.results(chain(silence={"actions": {"a": "u == 1", "b": "x != 5"}}))
         way = explained("x=4")["silence"]["way_out"]
         self.assertEqual((len(way["steps"]), way["end"], way["proven"], way["seen"]), (1, "no_silent_action", 1, None))
-        self.assertIn("a u = 1 and b nothing.", " ".join(explained("x=5")["sentences"]))
+        self.assertIn("a u = 1 and b no action.", " ".join(explained("x=5")["sentences"]))
         self.results(chain(silence={"actions": {"a": "u == 0", "b": "true"}}))
         own = explained("x=4")["silence"]
         self.assertEqual((own["silence"], own["silence_status"], own["way_out"]), (None, "unbounded", None))

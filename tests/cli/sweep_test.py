@@ -137,7 +137,7 @@ class Cases(Case):
     def test_place_that_is_not_there(self):
         result = self.run_program("analyze", "spec.json", "--sweep", "constants.r=1")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("error: 'r' is not one of the constants, expected 'R' (constants.r)\n", result.stdout.decode())
+        self.assertIn("error: 'r' is not one of the constants, did you mean 'R'? (constants.r)\n", result.stdout.decode())
 
 
 if __name__ == "__main__":
