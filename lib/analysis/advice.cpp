@@ -1,5 +1,6 @@
 #include "analysis/advice.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -80,7 +81,7 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
     add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, team, search), all);
     add(advise_on_standing(answers.context, answers.get<Invariance>().invariant), all);
   }
-  const bool creeps = !all.empty() && all.back().kind == "standing";
+  const bool creeps = std::ranges::any_of(all, [](const Warning& own) { return own.kind == "standing"; });
   work["helpers"]["unseen motion"] = {{"reads", search.reads}, {"solutions", search.followed}};
   add(advise_on_answers(answers, creeps, team, work), all);
   for (const Answer& answer : all_answers()) {

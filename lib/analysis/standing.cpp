@@ -185,17 +185,18 @@ Warnings advise_on_standing(const AnalysisContext& context, const CellSet& invar
     if (!found) continue;
     const auto& [held, moved] = *moving;
     const StateSpec& state = spec.states[held];
-    return {{"standing", fmt::format("/states/{}", held),
-             fmt::format(
-                 "at {} nothing moves with {}, yet the cell is not in the invariance set: cells of {} at "
-                 "its limit {:.6g} hold small values too, so that {} creeps to the next cell at every step, "
-                 "on finer grids as well; what can help: a face of half-open cells at the limit ({}), {} as a "
-                 "discrete set point, or \"saturate\" where it does no harm that {} passes the limit "
-                 "between samples",
-                 values_text(context.abstraction->grid, found->cell),
-                 inputs_text(spec, context.abstraction->inputs, found->input), state.name,
-                 nearest_double(above ? last_point(state) : state.grid.first), spec.states[moved].name,
-                 face_text(state, above), state.name, state.name)}};
+    return {
+        {"standing", fmt::format("/states/{}", held),
+         fmt::format(
+             "at {} nothing moves with {}, yet the cell is not in the invariance set: cells of {} at "
+             "its limit {:.6g} hold small values too, so that {} creeps to the next cell at every step, "
+             "on finer grids as well; what can help: a face of half-open cells at the limit ({}), {} as a "
+             "discrete set point, or \"saturate\" where it does no harm that {} passes the limit "
+             "between samples",
+             values_text(context.abstraction->grid, found->cell),
+             inputs_text(spec, context.abstraction->inputs, found->input), state.name,
+             nearest_double(above ? last_point(state) : state.grid.first), spec.states[moved].name,
+             face_text(state, above), state.name, state.name)}};
   }
   return {};
 }

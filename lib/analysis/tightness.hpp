@@ -32,8 +32,8 @@ struct Tightness {
   [[nodiscard]] double share() const;
 };
 
-/// The tightness of a sample of at most a dozen posts of each state, the same sample every time and for any number of
-/// processes. Together.
+/// The tightness of a sample of at most a dozen posts of each state, the same sample every time and for any
+/// number of processes. Together.
 /// @returns nothing if every post is an exact hull. @pre the context is set up
 [[nodiscard]] std::optional<Tightness> find_tightness(const AnalysisContext& context);
 

@@ -8,8 +8,8 @@ namespace coordreq {
 /// A hint at something that is no error and can mislead: a result that shows the grid rather than the system,
 /// a name that is not used. It never changes a result.
 struct Warning {
-  std::string kind;   ///< "grid", "unused", "units", "scale", "motion", "blocked", "numbering",
-                      ///< "between_samples", "empty", "no_silence", "goal", "memory", "sight" or "silence"
+  std::string kind;  ///< "grid", "unused", "units", "motion", "standing", ...: docs/how-to/grids.md says what
+                     ///< each means
   std::string place;  ///< JSON pointer
   std::string text;   ///< one line
 };

@@ -8,8 +8,8 @@
 #include "answers/requirements/result_requirement.hpp"
 #include "base/json.hpp"
 #include "export/report_map_list.hpp"
-#include "export/tolerance_frontier.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 namespace {
