@@ -22,11 +22,18 @@ std::string more_modes(std::size_t modes) {
   return modes <= kMostModes ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostModes));
 }
 
+/// What agents go by, after the word "agents"; empty for independent ones.
+std::string manner_of(const NetworkSpec& network) {
+  if (network.resynthesise) return " with robust re-synthesis";
+  return network.acts_by_rule ? " under the communication-loss rule" : "";
+}
+
 }  // namespace
 
 std::string network_of_analysis(const Json& summary, const ProblemSpec& spec) {
   if (!spec.network || !tells_partitions_in_full(summary)) return "";
   const Json& entry = summary["network"];
+  const std::string manner = manner_of(*spec.network);
   const Json& modes = entry["modes"];
   Table table({Table::Align::left, Table::Align::left, Table::Align::right});
   table.add({"  mode", "connected", "safe cells"});
@@ -38,7 +45,7 @@ std::string network_of_analysis(const Json& summary, const ProblemSpec& spec) {
       "\nnetwork {}: {}\n{}{}  Beginning in mode {}, {} stay safe from {} of {}; beginning in any mode, "
       "from {}.\n",
       text_of(entry["kind"]), network_meaning(*spec.network), table.text(), more_modes(modes.size()),
-      text_of(entry["initial"]), entry["resynthesise"] ? "agents with robust re-synthesis" : "the agents",
+      text_of(entry["initial"]), manner.empty() ? "the agents" : "agents" + manner,
       grouped(modes.front()["cells"]), cells(summary["invariant"]), grouped(entry["cells_in_every_mode"]));
 }
 
@@ -64,11 +71,10 @@ std::string report_network(const ResultsReader& results) {
   }
   return fmt::format(
              "<section aria-labelledby=\"network-title\">\n<h2 id=\"network-title\">On an unreliable "
-             "network</h2>\n<div class=\"answer\"><p class=\"headline\">Agents {}stay safe from "
+             "network</h2>\n<div class=\"answer\"><p class=\"headline\">Agents{} stay safe from "
              "<strong>{}</strong> of the states that can be kept safe, whatever the network does.</p>\n"
              "<p>The network: {}.</p></div>\n",
-             network.resynthesise ? "with robust re-synthesis " : "", share_text(safe.front(), kept),
-             html_line(network_meaning(network))) +
+             manner_of(network), share_text(safe.front(), kept), html_line(network_meaning(network))) +
          html_long_table({"Mode of the network", "Connected", "Safe states", "Share"}, rows) + "</section>\n";
 }
 

@@ -90,6 +90,7 @@ const std::vector<Answer>& all_answers() {
        .summarise = summarise_network,
        .examine = examine_network,
        .tell = tell_network,
+       .advise = advise_on_network,
        .check = check_network,
        .check_memory = network_check_memory},
       {.stages = risk_stages,

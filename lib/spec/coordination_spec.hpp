@@ -61,6 +61,10 @@ struct NetworkSpec {
   std::int64_t misses = 0, window = 0;
   ProbabilityRange loss, after_loss;  ///< as written
   bool resynthesise = false;
+  /// In modes of more than one class agents act by the communication-loss rule (contract, section 9), else
+  /// independently. Only beside `silence`.
+  bool acts_by_rule = false;
+  bool has_actions = false;  ///< the spec says which of the two
 };
 
 /// The question about the probability of leaving K. Only beside a network with numbers.

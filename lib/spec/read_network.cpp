@@ -162,6 +162,22 @@ void unfold_losses(const Scope& scope, const Node& object, const std::vector<Age
   settle_probabilities(network, object.pointer());
 }
 
+/// What agents do in modes of more than one class.
+void read_actions(const Node& root, NetworkSpec& network) {
+  const Node object = root["network"];
+  network.has_actions = object.has("actions");
+  network.acts_by_rule = network.has_actions && object["actions"].text() == "silence";
+  if (!network.acts_by_rule) return;
+  if (!root.has("silence")) {
+    throw SpecError("the spec has no communication-loss rule, expected the key 'silence' or \"independent\"",
+                    object["actions"].pointer());
+  }
+  if (network.resynthesise) {
+    throw SpecError("agents with robust re-synthesis follow no rule, expected \"independent\"",
+                    object["actions"].pointer());
+  }
+}
+
 }  // namespace
 
 std::string network_kind_name(NetworkKind kind) {
@@ -185,6 +201,7 @@ NetworkSpec read_network(const Scope& scope, const Node& root, const std::vector
   const Node object = root["network"];
   NetworkSpec network;
   network.resynthesise = object.flag("resynthesise");
+  read_actions(root, network);
   if (object.has("modes")) {
     read_automaton(scope, object, agents, coordination, network);
   } else {

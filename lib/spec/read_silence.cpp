@@ -39,7 +39,7 @@ SilenceSpec read_silence(const Scope& scope, const Node& root, const std::vector
   const Node object = root["silence"];
   SilenceSpec silence{.actions = std::vector<std::optional<Program>>(agents.size()), .then = {}};
   if (!object.has("actions") && !object.has("then"))
-    throw SpecError("missing key: one of 'actions' or 'then'", object.pointer());
+    throw SpecError("missing key: one of 'actions', 'then' or 'hold'", object.pointer());
   if (object.has("actions")) silence.actions = read_rules(scope, object["actions"], agents);
   if (!object.has("then")) return silence;
   silence.then = read_rules(scope, object["then"], agents);

@@ -9,6 +9,7 @@
 #include "base/index.hpp"
 #include "expression/tape_builder.hpp"
 #include "spec/check_limits.hpp"
+#include "spec/held_inputs.hpp"
 #include "spec/json_document.hpp"
 #include "spec/schema_violation.hpp"
 #include "spec/scope.hpp"
@@ -178,10 +179,11 @@ void check_new_name(const Node& name, const std::vector<std::string>& known, con
 }
 
 ProblemSpec read_spec(std::string text, std::string_view source) {
-  const JsonDocument document = JsonDocument::parse(text, source);
+  const JsonDocument written = JsonDocument::parse(text, source);
+  check_format(written.root());
+  check_schema(written);
+  const JsonDocument document = with_held_inputs(written, text, source);
   const Node root = document.root();
-  check_format(root);
-  check_schema(document);
   MemoryReader memory(root);
   number_memories(root, memory);
   const Scope scope(root, memory);

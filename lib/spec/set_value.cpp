@@ -28,24 +28,10 @@ using Pointer = Json::json_pointer;
   throw UsageError(what, one_line(path));
 }
 
-/// A document in the order of its text, with numbers as typed: one that a double cannot hold becomes a text,
-/// for a spec may have that instead.
-/// @throws SpecError as JsonDocument::parse()
-Json parsed(const std::string& text, const std::string& source) {
-  // A copy, since two documents at once take much memory.
-  const auto tokens = JsonDocument::parse(text, source).number_tokens();
-  Json json = parse_json(without_byte_order_mark(text), JsonComments::skipped);
-  for (const auto& [pointer, token] : tokens) {
-    Json& number = json[Pointer(pointer)];
-    if (parse_decimal(compact_json(number)) != parse_decimal(token)) number = token;
-  }
-  return json;
-}
-
 Json value_of(const SpecSetting& setting) {
   const std::string& value = setting.value;
   if (!is_utf8(value)) fail("expected UTF-8 text as the value", setting.path);
-  if (is_json(value)) return parsed(value, setting.path);
+  if (is_json(value)) return spec_json(value, setting.path);
   if (value.find_first_of("{[\"") == 0)
     fail("expected JSON, since it starts like it, found " + quote_text(value), setting.path);
   return value;
@@ -183,7 +169,7 @@ Json refined_step(const Json& step, std::int64_t factor) {
   const std::optional<Rational> value = parse_decimal(compact_json(step));
   if (!value) return step;
   const std::string text = to_text(*value / Rational(mpz_class(static_cast<long>(factor))));
-  return text.find('/') == std::string::npos ? parsed(text, "the step") : Json(text);
+  return text.find('/') == std::string::npos ? spec_json(text, "the step") : Json(text);
 }
 
 bool is_ring(const Json& state) {
@@ -206,8 +192,19 @@ void refine(Json& state, std::int64_t factor) {
 
 }  // namespace
 
+Json spec_json(const std::string& text, const std::string& source) {
+  // A copy, since two documents at once take much memory.
+  const auto tokens = JsonDocument::parse(text, source).number_tokens();
+  Json json = parse_json(without_byte_order_mark(text), JsonComments::skipped);
+  for (const auto& [pointer, token] : tokens) {
+    Json& number = json[Pointer(pointer)];
+    if (parse_decimal(compact_json(number)) != parse_decimal(token)) number = token;
+  }
+  return json;
+}
+
 std::optional<std::string> pointer_of_setting(const std::string& text, const SpecSetting& setting) {
-  const Json spec = parsed(text, "the spec");
+  const Json spec = spec_json(text, "the spec");
   std::string pointer;
   try {
     for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
@@ -219,19 +216,19 @@ std::optional<std::string> pointer_of_setting(const std::string& text, const Spe
 }
 
 std::string without_comments(const std::string& text) {
-  return json_text(parsed(text, "the spec"));
+  return json_text(spec_json(text, "the spec"));
 }
 
 std::string with_refinement(const std::string& text, const std::string& source, std::int64_t factor) {
   REQUIRES(1 <= factor && factor <= INT32_MAX);
-  Json spec = parsed(text, source);
+  Json spec = spec_json(text, source);
   if (!spec.is_object() || !spec.contains("states") || !spec["states"].is_array()) return text;
   for (Json& state : spec["states"]) refine(state, factor);
   return json_text(spec);
 }
 
 std::string with_setting(const std::string& text, const std::string& source, const SpecSetting& setting) {
-  Json spec = parsed(text, source);
+  Json spec = spec_json(text, source);
   Json* at = &spec;
   // A JSON pointer would make a list of what is not there wherever a step is a number, however large.
   for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))

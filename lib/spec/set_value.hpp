@@ -4,7 +4,14 @@
 #include <optional>
 #include <string>
 
+#include "base/json.hpp"
+
 namespace coordreq {
+
+/// The document of a text in its order, numbers as typed; one that a double cannot hold becomes a text, for a
+/// spec may have that instead. @param source the file name for messages
+/// @throws SpecError as JsonDocument::parse()
+[[nodiscard]] Json spec_json(const std::string& text, const std::string& source);
 
 /// A value of a spec that shall be another.
 struct SpecSetting {

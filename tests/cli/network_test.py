@@ -62,6 +62,7 @@ network weakly_hard: at most 1 of any 3 steps lost
             summary["network"],
             {
                 "kind": "weakly_hard",
+                "actions": "independent",
                 "resynthesise": True,
                 "initial": "11",
                 "modes": [
@@ -113,6 +114,63 @@ network weakly_hard: at most 1 of any 3 steps lost
             one = (self.folder / "results.h5").read_bytes()
             self.results(spec, "--threads", "3")
             self.assertEqual((self.folder / "results.h5").read_bytes(), one)
+
+    # agents that follow a rule
+
+    def by_rule(self, rule, **network):
+        return crossing(**network, actions="silence") | {"silence": {"actions": rule}}
+
+    def test_a_delay_of_d_steps_leaves_the_cells_whose_silence_by_rule_is_d(self):
+        for rule in ({"a": "u <= 0"}, {"a": "u == 1", "b": "v == 0"}, {"b": "v == -1"}):
+            summary = self.results(self.by_rule(rule, delay=4))
+            self.assertEqual(summary["network"]["actions"], "silence")
+            self.assertNotIn("network", [warning["kind"] for warning in summary["warnings"]])
+            with h5py.File(self.folder / "results.h5") as file:
+                network_safe, silence = file["network_safe"][...], file["silence"][0]
+            self.assertGreater(len(np.unique(silence)), 2)
+            for steps in range(5):
+                np.testing.assert_array_equal(network_safe[4 - steps], silence >= steps)
+            code, checks = self.verified()
+            self.assertEqual((code, checks["network"]["status"]), (0, "holds"))
+
+    def test_text_where_a_rule_is_followed(self):
+        self.write("spec.json", self.by_rule({"a": "u <= 0"}, **HARD))
+        result = self.run_program("analyze", "spec.json")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        text = result.stdout.decode()
+        self.assertIn("\n  Beginning in mode 11, agents under the communication-loss rule stay safe from ", text)
+
+    def test_a_rule_that_the_network_leaves_aside_is_named(self):
+        self.write("spec.json", crossing(**HARD) | {"silence": {"actions": {"a": "u <= 0"}}})
+        result = self.run_program("analyze", "spec.json")
+        self.assertEqual(
+            (result.returncode, result.stderr),
+            (
+                0,
+                b"coordreq: warning: the safe sets of the network do not use the communication-loss rule; set "
+                b'"actions": "silence" if agents follow it in lost steps, else "independent" (/network)\n',
+            ),
+        )
+        chosen = crossing(**HARD, actions="independent") | {"silence": {"actions": {"a": "u <= 0"}}}
+        self.write("spec.json", chosen)
+        self.assertEqual(self.run_program("analyze", "spec.json", "--force").stderr, b"")
+
+    def test_verify_finds_every_wrong_bit_where_a_rule_is_followed(self):
+        self.results(self.by_rule({"a": "u == 1", "b": "v == 0"}, delay=1))
+        with h5py.File(self.folder / "results.h5") as file:
+            right = file["network_safe"][...]
+        self.assertTrue(0 < right[0].sum() < right[1].sum())
+        for place in np.ndindex(*right.shape):
+            wrong = right.copy()
+            wrong[place] ^= 1
+
+            def edit(file, wrong=wrong):
+                file["network_safe"][...] = wrong
+                file["network_safe"].attrs["cells"] = wrong.sum(axis=(1, 2)).astype(np.uint64)
+
+            self.change(edit)
+            code, checks = self.verified()
+            self.assertEqual((code, checks["network"]["status"]), (1, "wrong"), place)
 
     def test_info(self):
         self.results(crossing(**HARD, resynthesise=True))
@@ -179,12 +237,24 @@ network weakly_hard: at most 1 of any 3 steps lost
               "transitions": [["n", "m"]]}),
             (3, "'modes' and 'up' exclude each other (/network)",
              {"modes": [{"name": "m", "partition": "a|b"}], "transitions": [["m", "m"]], "up": "a+b"}),
+            (3, 'the spec has no communication-loss rule, expected the key \'silence\' or "independent" (/network/actions)',
+             {"delay": 1, "actions": "silence"}),
+            (3, 'expected "independent" or "silence", found \'rule\' (/network/actions)', {"delay": 1, "actions": "rule"}),
             (4, "more than 4096 modes, the most that are possible (/network/weakly_hard)",
              {"weakly_hard": {"misses": 7, "window": 16}}),
         ):  # fmt: skip
             with self.subTest(message=message):
                 self.write("spec.json", dict(SPEC, network=network))
                 self.assert_fails(code, message, "analyze", "spec.json")
+
+    def test_a_rule_and_robust_resynthesis_exclude_each_other(self):
+        self.write("spec.json", self.by_rule({"a": "u <= 0"}, **HARD, resynthesise=True))
+        self.assert_fails(
+            3,
+            'agents with robust re-synthesis follow no rule, expected "independent" (/network/actions)',
+            "analyze",
+            "spec.json",
+        )
 
     def verified(self):
         result = self.run_program("verify", "results.h5", "--json", "--threads", "1")

@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 import numpy
-from program import CONFIGS, Case, spec_with, without_comments
+from program import CONFIGS, Case, spec_with, without_comments, without_places
 
 MOST = 32767  # of int16: unbounded
 
@@ -188,6 +188,92 @@ class Cases(Case):
             result = self.run_program("analyze", "spec.json", "-o", "r.h5", "--quiet", *arguments)
             self.assertEqual((result.returncode, result.stderr), (0, b""))
             self.assertEqual((self.folder / "r.h5").read_bytes(), whole)
+
+    # inputs that are held
+
+    def hold(self, held, **more):
+        """The chain with other rules. The state of an input stands behind all others."""
+        return chain(**{"silence": {"hold": held}, **more})
+
+    def by_hand(self, held, rules, **more):
+        spec = chain(**{"silence": {"actions": rules}, **more})
+        for name, state, update in held:
+            spec["states"].append({"name": name, "discrete": True, **state})
+            spec["dynamics"]["equations"][name] = update
+        return spec
+
+    def assert_equal_files(self, one, two):
+        """All datasets are equal, but for the text of the spec and its hash."""
+        files = []
+        for spec in (one, two):
+            self.results(spec)
+            found = {}
+            with h5py.File(self.folder / "r.h5") as file:
+                file.visititems(
+                    lambda path, item: found.update({path: item[...].tolist()})
+                    if isinstance(item, h5py.Dataset) and path not in ("spec", "spec_json")
+                    else None
+                )
+            files.append(found)
+        self.assertEqual(files[0].keys(), files[1].keys())
+        self.assertEqual([path for path in files[0] if files[0][path] != files[1][path]], [])
+        self.assertIn("silence", files[0])
+
+    def test_holding_an_input_is_what_it_is_by_hand(self):
+        of_u = ("u_held", {"lower": -1, "upper": 1, "step": 1}, "u")
+        of_v = ("v_held", {"lower": 0, "upper": 1, "step": 1}, "v")
+        rule = {"a": "u == u_held"}
+        self.assert_equal_files(self.hold(["u"]), self.by_hand([of_u], rule))
+        both_rules = {**rule, "b": "v == v_held"}
+        self.assert_equal_files(self.hold("all"), self.by_hand([of_u, of_v], both_rules))
+        self.assert_equal_files(
+            self.hold(["v"], silence={"hold": ["v"], "actions": {"a": "u == 1", "b": "v >= 0"}}),
+            self.by_hand([of_v], {"a": "u == 1", "b": "v >= 0 and v == v_held"}),
+        )
+        self.assertEqual(self.run_program("verify", "r.h5", "--quiet").returncode, 0)
+
+    def test_values_that_are_not_evenly_spaced_are_held_by_their_number(self):
+        inputs = [{"name": "u", "values": [2, -1, 0]}, {"name": "v", "values": [0, 1]}]
+        self.assert_equal_files(
+            self.hold(["u"], inputs=inputs),
+            self.by_hand(
+                [("u_held", {"lower": 0, "upper": 2, "step": 1}, "if(u == 2, 0, if(u == -1, 1, 2))")],
+                {"a": "u == if(u_held == 0, 2, if(u_held == 1, -1, 0))"},
+                inputs=inputs,
+            ),
+        )
+
+    def test_constants_units_and_sight_of_an_input_that_is_held(self):
+        spec = self.hold(["u"], constants={"MOST": "1/2 + 1/2"})
+        spec["inputs"][0] = {"name": "u", "lower": "-MOST", "upper": "MOST", "count": 3, "unit": "m"}
+        spec["agents"][0]["sees"] = ["x"]
+        spec["definitions"] = {"low": "x - MOST"}
+        self.results(spec)
+        info = self.run_program("info", "r.h5").stdout.decode()
+        self.assertRegex(info, r"\nu_held +state +3 +-1 +1 +m ")
+        found = json.loads(self.run_program("query", "r.h5", "--at", "x=2,u_held=1", "--json").stdout)
+        self.assertEqual(found["partitions"][0]["silence"]["classes"][0]["actions"], [2])
+
+    def test_an_input_that_is_held_in_continuous_time(self):
+        spec = self.hold(["u"])
+        spec["states"][0] = {"name": "x", "lower": 0, "upper": 9, "step": 1, "outside": "saturate"}
+        spec["dynamics"] = {"time": "continuous", "period": 1, "equations": {"x": "u"}}
+        self.results(spec)
+        self.assertGreater(len(numpy.unique(self.arrays("silence")[0])), 2)
+        self.assertEqual(self.run_program("verify", "r.h5", "--quiet").returncode, 0)
+
+    def test_errors_of_inputs_that_are_held(self):
+        for message, hold, more in (
+            ("'w' is not an input (/silence/hold/0)", ["w"], {}),
+            ("the input 'u' is listed twice (/silence/hold/1)", ["u", "u"], {}),
+            ("expected \"all\" or a list of inputs, found 'u' (/silence/hold)", "u", {}),
+            ("expected no other 'u_held', the state that keeps an input (/silence/hold)", "all", {"constants": {"u_held": 1}}),
+        ):  # fmt: skip
+            with self.subTest(message=message):
+                self.write("spec.json", self.hold(hold, **more))
+                result = self.run_program("validate", "spec.json")
+                self.assertEqual(result.returncode, 3)
+                self.assertEqual(without_places(result.stderr).decode(), f"coordreq: error: {message}\n")
 
     # commands
 

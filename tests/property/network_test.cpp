@@ -11,8 +11,11 @@
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/draw.hpp"
+#include "support/plain_posts.hpp"
+#include "support/plain_silence.hpp"
 #include "support/random_goal.hpp"
 #include "support/random_problem.hpp"
+#include "support/random_silence.hpp"
 
 namespace coordreq {
 namespace {
@@ -85,6 +88,91 @@ bool is_subset(const Set& a, const Set& b) {
 std::string draw_network(const std::string& problem, bool resynthesise) {
   if (draw(0, 1) == 0) return draw_losses(resynthesise);
   return draw_automaton(partition_names(read_spec(problem, "random")), resynthesise);
+}
+
+/// W(q) where agents act by rules in modes of more than one class, cell by cell.
+class PlainRuleModes {
+ public:
+  PlainRuleModes(const ProblemSpec& spec, const FastAnalysis& fast)
+      : spec_(spec),
+        safe_(members(fast.safe)),
+        beyond_(members(fast.beyond.value_or(fast.safe))),
+        posts_{fast.abstraction, safe_, beyond_},
+        plain_(plainly(spec, fast)),
+        silence_(told_silence_plainly(spec, fast.abstraction, safe_, beyond_, plain_)) {}
+
+  [[nodiscard]] const Set& invariant() const { return plain_.invariant; }
+  [[nodiscard]] std::vector<Set> safe() const {
+    std::vector<Set> sets(spec_.network->modes.size(), plain_.invariant);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t q = 0; q < sets.size(); ++q) {
+        const Set target = target_of(q, sets);
+        for (std::size_t x = 0; x < target.size(); ++x) {
+          if (!sets[q][x] || stays(q, x, target)) continue;
+          sets[q][x] = false;
+          changed = true;
+        }
+      }
+    }
+    return sets;
+  }
+
+ private:
+  [[nodiscard]] Set target_of(std::size_t q, const std::vector<Set>& sets) const {
+    Set target(plain_.invariant.size(), true);
+    for (const auto& [from, to] : spec_.network->transitions) {
+      if (static_cast<std::size_t>(from) != q) continue;
+      for (std::size_t x = 0; x < target.size(); ++x)
+        target[x] = target[x] && sets[static_cast<std::size_t>(to)][x];
+    }
+    return target;
+  }
+  /// C(x) where all are one class, else A(x).
+  [[nodiscard]] const std::vector<bool>& choices(std::size_t q, std::size_t x) const {
+    const PartitionSpec& partition = spec_.network->modes[q].partition;
+    if (partition.classes.size() == 1) return plain_.controller[x];
+    const std::vector<PartitionSpec>& listed = spec_.coordination.partitions;
+    const auto same = std::find_if(listed.begin(), listed.end(),
+                                   [&](const auto& one) { return one.canonical == partition.canonical; });
+    return silence_.partitions.at(static_cast<std::size_t>(same - listed.begin())).actions[x];
+  }
+  [[nodiscard]] bool stays(std::size_t q, std::size_t x, const Set& target) const {
+    if (plain_.over[x]) return true;
+    const std::vector<bool>& chosen = choices(q, x);
+    for (std::size_t u = 0; u < chosen.size(); ++u) {
+      const auto input = static_cast<std::int64_t>(u);
+      if (chosen[u] &&
+          (!plain_.permitted[x][u] || !posts_.stays_in(static_cast<std::int64_t>(x), input, target)))
+        return false;
+    }
+    return std::find(chosen.begin(), chosen.end(), true) != chosen.end();
+  }
+
+  const ProblemSpec& spec_;
+  Set safe_, beyond_;
+  PlainPosts posts_;
+  PlainAnalysis plain_;
+  PlainSilence silence_;
+};
+
+TEST(Network, AgreesWhereAgentsActByRules) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("row engine equals plain engine", [&] {
+    const std::string text = with_silence(perhaps_with_end(draw_problem()));
+    std::string network = draw_network(text, false);
+    network.replace(network.rfind('}'), 1, R"(, "actions": "silence"})");
+    const ProblemSpec spec = read_spec(with_network(text, network), "random");
+    const FastAnalysis fast(spec, team);
+    const PlainRuleModes plain(spec, fast);
+    std::vector<Set> safe;
+    for (const CellSet& set : fast.answers->get<NetworkSafety>().safe) safe.push_back(members(set));
+    RC_ASSERT(safe == plain.safe());
+    const bool is_telling = std::any_of(safe.begin(), safe.end(), [&](const Set& set) {
+      return size(set) > 0 && size(set) < size(plain.invariant());
+    });
+    RC_CLASSIFY(is_telling, "some cells of K");
+  }));
 }
 
 TEST(Network, AgreesWhereAGoalEndsTheTask) {

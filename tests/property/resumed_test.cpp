@@ -256,7 +256,7 @@ TEST(Resumed, RisksAreTheSameFromAnyStep) {
                               .invariant = network.invariant,
                               .hull = &fast.hull,
                               .partitions = network.partitions,
-                              .silent = std::vector<const Projections*>(network.partitions.size(), nullptr),
+                              .rules = std::vector<const Projections*>(network.partitions.size(), nullptr),
                               .partition_of = {network.modes[0].partition, network.modes[1].partition},
                               .expected = &expected,
                               .horizon = 6};

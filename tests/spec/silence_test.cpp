@@ -33,7 +33,7 @@ TEST(SilenceSpec, HasConditionsByAgent) {
 
 TEST(SilenceSpec, IsAboutAgentsAndAllOfThemAfterwards) {
   EXPECT_EQ(test::error_of(told(nlohmann::json::object())),
-            "missing key: one of 'actions' or 'then' (/silence)");
+            "missing key: one of 'actions', 'then' or 'hold' (/silence)");
   EXPECT_EQ(test::error_of(told({{"actions", {{"c", "true"}}}})), "'c' is not an agent (/silence/actions)");
   EXPECT_EQ(test::error_of(told({{"then", {{"a", "u1 == 0"}}}})),
             "expected a condition for each agent, found none for 'b' (/silence/then)");

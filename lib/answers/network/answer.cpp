@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/network/fields.hpp"
 #include "answers/network/network_problem.hpp"
+#include "answers/network/rule_modes.hpp"
 #include "answers/work_json.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -39,7 +41,9 @@ void find_safe_sets(Answers& answers, const StageWork& work) {
     };
     const NetworkWatch watch{.step = step_of(work, *context.engine, save),
                              .resumed = kept == StageStore::Kept::unfinished ? &sets : nullptr};
-    const NetworkProblem problem = network_problem(answers);
+    NetworkProblem problem = network_problem(answers);
+    std::optional<RuleModes> rules;
+    if (context.spec.network->acts_by_rule) problem.rules = rules.emplace(answers, work.team).projections();
     result = find_network_safety(problem, watch, work.team);
   }
   if (work.store == nullptr) return;
@@ -68,6 +72,7 @@ Json network_json(const AnalysisContext& context, const NetworkSafety& safety) {
   const NetworkSpec& spec = *context.spec.network;
   Json json;
   json["kind"] = network_kind_name(spec.kind);
+  json["actions"] = spec.acts_by_rule ? "silence" : "independent";
   json["resynthesise"] = spec.resynthesise;
   json["initial"] = spec.modes.front().name;
   json["modes"] = Json::array();
@@ -106,6 +111,15 @@ void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info
     info["modes"].push_back({{"name", spec.network->modes[mode].name}, {"cells", cells[mode]}});
 }
 
+/// Without the word "actions" it is not said that the safe sets leave the rule aside.
+Warnings advise_on_network(const Answers& answers) {
+  const ProblemSpec& spec = answers.context.spec;
+  if (!spec.network || !spec.silence || spec.network->has_actions) return {};
+  return {{"network", "/network",
+           "the safe sets of the network do not use the communication-loss rule; "
+           "set \"actions\": \"silence\" if agents follow it in lost steps, else \"independent\""}};
+}
+
 /// The sets of all modes, the levels of one target, which rows of each have changed, and the projections of
 /// all partitions.
 MemoryNeed network_memory(const EngineSizes& sizes, int threads) {
@@ -119,6 +133,7 @@ MemoryNeed network_memory(const EngineSizes& sizes, int threads) {
     const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), *partition);
     need.work += sizes.groups(classes);
     if (!spec.network->resynthesise) need.work += projection_bytes(sizes, classes);
+    if (spec.network->acts_by_rule && classes.size() > 1) need.work += silent_bytes(sizes, classes);
   }
   return need;
 }

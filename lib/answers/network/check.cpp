@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <optional>
 
 #include "answers/checking/claimed_values.hpp"
 #include "answers/checking/independent_choices.hpp"
+#include "answers/checking/ruled_choices.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -46,13 +49,21 @@ class NetworkChecker : public CellChecker {
         claimed_(context.claims->at(kNetworkSafe).members),
         inputs_(static_cast<std::size_t>(context.inputs->count())),
         choices_(network.partitions.size()) {
-    for (const auto& partition : network.partitions) independent_.emplace_back(context, partition);
+    for (const auto& partition : network.partitions) {
+      independent_.emplace_back(context, partition);
+      std::optional<RuledChoices>& ruled = ruled_.emplace_back();
+      if (network.spec.acts_by_rule && partition.size() > 1)
+        ruled.emplace(context, context.spec->silence->actions, "actions", partition);
+    }
   }
 
   void check(CheckedCell& cell) override {
     cell_ = &cell;
     if (cell.is_invariant() && !network_.spec.resynthesise) {
-      for (std::size_t p = 0; p < choices_.size(); ++p) choices_[p] = independent_[p].of(cell.admitted());
+      for (std::size_t p = 0; p < choices_.size(); ++p) {
+        choices_[p] =
+            ruled_[p] ? ruled_[p]->of(cell.number(), cell.admitted()) : independent_[p].of(cell.admitted());
+      }
     }
     for (std::size_t mode = 0; mode < network_.spec.modes.size(); ++mode) {
       const bool claimed = claimed_[mode][cell.at()] != 0;
@@ -123,7 +134,8 @@ class NetworkChecker : public CellChecker {
   const std::vector<Members>& claimed_;  ///< [mode][cell]
   std::size_t inputs_;
   std::vector<IndependentChoices> independent_;     ///< [partition]
-  std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell
+  std::deque<std::optional<RuledChoices>> ruled_;   ///< [partition] of agents that act by rules
+  std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell, or A
   CheckedCell* cell_ = nullptr;                     ///< the cell being checked
 };
 

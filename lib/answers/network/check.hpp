@@ -9,7 +9,8 @@ namespace coordreq {
 /// Checks the claims about single cells in each mode of the network, with values as in check_invariance().
 /// With T(q) the intersection of the claimed W(q') over the modes q' that follow q, for every cell x and mode
 /// q:
-/// - x in W(q) exactly if x in K and every u in IND_C(x) has a post, inside T(q): W is a fixed point. Whether
+/// - x in W(q) exactly if x in K and every u in IND_C(x) (by rules: A(x), which is not empty) has a post,
+/// inside T(q): W is a fixed point. Whether
 ///   it is the largest is not checked;
 /// - `resynthesise`: x in W(q) only if x in K, some allowed u has a post inside T(q), and so has every
 ///   mixture of such u, which is allowed too. Whether the iteration of the contract ends there is not

@@ -28,6 +28,7 @@ NetworkProblem network_problem(const ProblemSpec& spec, const Controller& contro
                          .invariant = controller.invariant,
                          .hull = &hull,
                          .partitions = {},
+                         .rules = {},
                          .modes = std::vector<NetworkMode>(network.modes.size()),
                          .resynthesise = network.resynthesise};
   std::map<std::string, std::size_t> number;
@@ -35,6 +36,7 @@ NetworkProblem network_problem(const ProblemSpec& spec, const Controller& contro
     number.emplace(partition->canonical, number.size());
     problem.partitions.push_back(input_classes(spec, controller.engine->abstraction().inputs, *partition));
   }
+  problem.rules.assign(problem.partitions.size(), nullptr);
   for (std::size_t mode = 0; mode < network.modes.size(); ++mode)
     problem.modes[mode].partition = number.at(network.modes[mode].partition.canonical);
   for (const auto& [from, to] : network.transitions)

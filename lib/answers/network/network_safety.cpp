@@ -23,15 +23,22 @@ class Operators {
  public:
   Operators(const NetworkProblem& problem, ThreadTeam& team) {
     const Controller& controller = *problem.controller;
-    for (const std::vector<InputClass>& classes : problem.partitions) {
-      const ActionGrouping& grouping = groupings_.emplace_back(*controller.engine, classes, team);
+    const auto add = [&](const Projections& projections) {
+      operators_.push_back(
+          std::make_unique<IndependentActions<Level>>(projections, *controller.invariant, team.size()));
+    };
+    for (std::size_t p = 0; p < problem.partitions.size(); ++p) {
+      if (problem.rules[p] != nullptr) {
+        add(*problem.rules[p]);
+        continue;
+      }
+      const ActionGrouping& grouping =
+          groupings_.emplace_back(*controller.engine, problem.partitions[p], team);
       if (problem.resynthesise) {
         operators_.push_back(std::make_unique<CarefulActions>(grouping, team.size()));
         continue;
       }
-      const Projections& projections = projections_.emplace_back(controller, grouping, team);
-      operators_.push_back(
-          std::make_unique<IndependentActions<Level>>(projections, *controller.invariant, team.size()));
+      add(projections_.emplace_back(controller, grouping, team));
     }
   }
 

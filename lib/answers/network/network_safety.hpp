@@ -14,6 +14,8 @@
 
 namespace coordreq {
 
+class Projections;
+
 /// One mode of a network: who is connected in a step, and which modes the next step can be in.
 struct NetworkMode {
   std::size_t partition = 0;            ///< index into NetworkProblem::partitions
@@ -27,6 +29,9 @@ struct NetworkProblem {
       nullptr;  ///< G of a goal that ends the task, which is in every W(q); null: there is none
   const RowHull* hull = nullptr;
   std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each
+  /// [partition] A(x) in K of agents that act by rules; null: they choose from IND_C(x). The objects outlive
+  /// this one.
+  std::vector<const Projections*> rules;
   std::vector<NetworkMode> modes;
   bool resynthesise = false;
 };
@@ -54,7 +59,8 @@ struct NetworkWatch {
 /// intersection of W(q') over the successors q' of q:
 /// - usually the greatest W with W(q) = {x in K : empty != f(x,u) subset of T(q) for all u in IND_C(x)},
 ///   IND_C that of q's partition, and f(x,u) empty where u is forbidden (see ForbiddenChoices). The operator
-///   is monotone, so that any order of work gives the same;
+///   is monotone, so that any order of work gives the same. Where agents act by rules, A(x) takes the place
+///   of IND_C(x), and f(x,u) is empty, too, where a class has no action;
 /// - `resynthesise`: agents restrict themselves to C_q(x) = {u allowed : empty != f(x,u) subset of T(q)}.
 ///   From W(q) = K on, synchronously, W(q) <- W(q) n {x : C_q(x) != empty, IND(C_q)(x) subset of C_q(x)}
 ///   until nothing changes. Sound, as the last W is a fixed point; perhaps not the largest, as the operator

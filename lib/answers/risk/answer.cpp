@@ -1,14 +1,15 @@
 #include "answers/risk/answer.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/network/network_problem.hpp"
+#include "answers/network/rule_modes.hpp"
 #include "answers/risk/fields.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "answers/silence/silent_actions.hpp"
@@ -55,36 +56,15 @@ void save_state(Archive& archive, const RowShare* share, std::int64_t steps, dou
   for (const NumberRows& risks : state) serialise_rows(archive, share, risks);
 }
 
-/// Projections by rules of silent agents, for modes of more than one class.
-class SilentModes {
- public:
-  SilentModes(const Answers& answers, ThreadTeam& team) {
-    const ProblemSpec& spec = answers.context.spec;
-    for (const PartitionSpec* const partition : network_partitions(*spec.network)) {
-      if (spec.silence && partition->classes.size() > 1) {
-        actions_.emplace_back(answers, AgentRules{spec.silence->actions, "actions"}, partition->classes,
-                              *answers.get<GoingOn>().controller.invariant, team);
-        projections_.push_back(&actions_.back().projections);
-      } else {
-        projections_.push_back(nullptr);
-      }
-    }
-  }
-  [[nodiscard]] const std::vector<const Projections*>& projections() const { return projections_; }
-
- private:
-  std::deque<SilentActions> actions_;
-  std::vector<const Projections*> projections_;  ///< [partition]
-};
-
-RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected, const SilentModes& silent) {
+RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected,
+                         const std::optional<RuleModes>& rules) {
   const AnalysisContext& context = answers.context;
   NetworkProblem network = network_problem(answers);
   RiskProblem problem{.controller = network.controller,
                       .invariant = network.invariant,
                       .hull = network.hull,
                       .partitions = std::move(network.partitions),
-                      .silent = silent.projections(),
+                      .rules = rules ? rules->projections() : network.rules,
                       .partition_of = {},
                       .expected = &expected,
                       .horizon = context.spec.risk->horizon,
@@ -122,8 +102,9 @@ void find_risks(Answers& answers, const StageWork& work) {
                               },
                           .resumed = kept == StageStore::Kept::unfinished ? &state : nullptr};
     const ExpectedRisks expected(*context.spec.network);
-    const SilentModes silent(answers, work.team);
-    result = find_risk(risk_problem(answers, expected, silent), watch, work.team);
+    std::optional<RuleModes> rules;
+    if (context.spec.silence) rules.emplace(answers, work.team);
+    result = find_risk(risk_problem(answers, expected, rules), watch, work.team);
   }
   for (const RiskRows& risks : result.risks)
     answer.figures.push_back(risk_figures(risks, invariant, share, work.team));

@@ -37,12 +37,12 @@ class LeastRisk final : public ModeRisk<Level> {
 }  // namespace
 
 ModeChoices::ModeChoices(const Controller& controller, const std::vector<std::vector<InputClass>>& partitions,
-                         const std::vector<const Projections*>& silent, bool is_safest, ThreadTeam& team)
+                         const std::vector<const Projections*>& rules, bool is_safest, ThreadTeam& team)
     : controller_(controller) {
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const std::vector<InputClass>& classes = partitions[p];
     Partition& partition = partitions_.emplace_back();
-    partition.projections = silent[p];
+    partition.projections = rules[p];
     if (partition.projections != nullptr) continue;
     partition.is_safest = is_safest && classes.size() == 1;
     partition.grouping = &groupings_.emplace_back(

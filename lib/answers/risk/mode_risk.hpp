@@ -27,10 +27,10 @@ class ModeRisk {
 class ModeChoices {
  public:
   /// @param partitions the classes of each
-  /// @param silent [partition] A(x) in K; null: its agents choose from IND_C(x)
+  /// @param rules [partition] A(x) in K; null: its agents choose from IND_C(x)
   /// @pre unchecked: the controller and A(x) outlive this object.
   ModeChoices(const Controller& controller, const std::vector<std::vector<InputClass>>& partitions,
-              const std::vector<const Projections*>& silent, bool is_safest, ThreadTeam& team);
+              const std::vector<const Projections*>& rules, bool is_safest, ThreadTeam& team);
 
   /// One operator a partition. @pre unchecked: this object outlives them.
   template <class Level>

@@ -45,7 +45,7 @@ class RiskIteration {
         ends_early_(problem.controller->invariant != problem.invariant),
         watch_(watch),
         team_(team),
-        choices_(*problem.controller, problem.partitions, problem.silent, problem.is_safest, team) {
+        choices_(*problem.controller, problem.partitions, problem.rules, problem.is_safest, team) {
     if (watch.resumed != nullptr) state_ = std::exchange(*watch.resumed, {});
     if (state_.risks.empty()) state_.risks = first_risks(*problem.invariant, modes(), engine_.share());
     const RowShare::Range own = own_rows(engine_.share(), engine_.rows());

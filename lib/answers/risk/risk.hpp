@@ -23,7 +23,7 @@ struct RiskProblem {
   const CellSet* invariant = nullptr;  ///< K
   const RowHull* hull = nullptr;
   std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each
-  std::vector<const Projections*> silent;           ///< [partition] A(x), or null: see ModeChoices
+  std::vector<const Projections*> rules;            ///< [partition] see ModeChoices
   std::vector<std::size_t> partition_of;            ///< [mode] index into partitions
   const ExpectedRisks* expected = nullptr;
   std::int64_t horizon = 0;  ///< N
