@@ -122,7 +122,7 @@ function(coordreq_test name)
   if(ARG_CASES)
     # Parameters by number: printed, a struct is its bytes, which differ from run to run.
     gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
-                         PROPERTIES TIMEOUT 1800 LABELS long)
+                         PROPERTIES TIMEOUT 1800 LABELS standard)
   else()
     add_test(NAME ${name}.units COMMAND ${target} --gtest_brief=1)
     set_tests_properties(${name}.units PROPERTIES TIMEOUT 1800 LABELS quick)

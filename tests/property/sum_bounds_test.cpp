@@ -74,13 +74,14 @@ std::size_t compare(const RowEngine& engine, SumReader<Level>& reader, std::span
 
 TEST(SumReader, BoundsAreNowhereAboveTheMinimaOfTheirChoices) {
   ThreadTeam team(1);
-  std::size_t found = 0;
+  std::size_t found = 0, tried = 0;
   EXPECT_TRUE(rc::check("bound <= minimum of each choice", [&] {
     const SystemSpec spec = read_system(draw_problem(RandomTime::any, RandomEdges::plain), "random");
     RC_PRE(spec.states.size() > 1);
     const Abstraction abstraction = random_sums(spec, team);
     const RowEngine engine(abstraction, nullptr, {});
     RC_PRE(!engine.posts().is_cut());
+    ++tried;
     const LevelRows<Level> levels = random_levels(engine);
     SumReader<Level> reader(engine, levels);
     const ActionGrouping grouping(engine, single_classes(abstraction.inputs), team);
@@ -96,7 +97,7 @@ TEST(SumReader, BoundsAreNowhereAboveTheMinimaOfTheirChoices) {
       found += compare(engine, reader, tuple.all_slice_ids());
     } while (tuple.next_of_others());
   }));
-  EXPECT_GT(found, 100U);
+  EXPECT_GT(found, tried);  // else it says little
 }
 
 }  // namespace
