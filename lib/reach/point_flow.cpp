@@ -23,9 +23,11 @@ constexpr int kStiffSteps = 1000;
 constexpr int kLooks = 8;
 /// The precision of the time of an event, as a part of a sub-step.
 constexpr double kEventShare = 0x1p-50;
-/// After so many events that come within this share of the period, none is looked for earlier.
+/// After so many events that come within this share of the period, none is looked for earlier, nor before a
+/// state has moved by this part of its grid step.
 constexpr int kShortEvents = 50;
 constexpr double kDwell = 0x1p-12;
+constexpr double kDwellOfStep = 0x1p-6;
 
 /// The length of the next sub-step relative to this one, by the error estimate.
 double growth(double error, double largest) {
@@ -144,10 +146,25 @@ bool PointFlow::is_event(double share) {
   return false;
 }
 
+/// For how long a solution that slides may go on beyond an event.
+double PointFlow::dwell() {
+  double longest = kDwell * period_;
+  put(x_);
+  for (std::size_t i = 0; i < equations_.size(); ++i) {
+    const double speed = held_[i] != 0 ? 0.0 : std::fabs(equations_[i].kept(slots_));
+    if (speed * longest > kDwellOfStep * scale_[i]) longest = kDwellOfStep * scale_[i] / speed;
+  }
+  return longest;
+}
+
+bool PointFlow::is_sliding() const {
+  return short_events_ >= kShortEvents;
+}
+
 /// The share of the sub-step of length h in which nothing happens, or a little more; 1 if that is all of it.
 double PointFlow::share_until_event(double h) {
   if (!has_events_) return 1.0;
-  const double least = short_events_ < kShortEvents ? 0.0 : std::min(1.0, kDwell * period_ / h);
+  const double least = is_sliding() ? std::min(1.0, dwell() / h) : 0.0;
   if (least > 0.0 && is_event(least)) return least;
   double before = least;
   for (int look = 1; look <= kLooks; ++look) {
@@ -169,6 +186,7 @@ double PointFlow::share_until_event(double h) {
 bool PointFlow::advance(double& left, double& h) {
   if (is_stiff_) return advance_stiffly(left, h);
   const double smallest = period_ * (++steps_ < kMostEvaluations ? kSmallestStep : kSlidingStep);
+  if (steps_ > kMostEvaluations && is_sliding()) return false;
   h = std::min(h, left);
   pair_.step([this](const Values& x, Values& result) { derivative(x, result); }, x_, h);
   const double error = relative_error();

@@ -23,7 +23,9 @@ namespace coordreq {
 /// sub-step, to 2^-50 of it. Two events that undo one another within an eighth of a sub-step are not seen.
 ///
 /// A solution that slides along a place where f jumps passes it to and fro: after 50 events in short
-/// succession the next ones are only looked for 2^-12 of the period later.
+/// succession the next ones are only looked for 2^-12 of the period later, or when a state has moved by 2^-6
+/// of its grid step, whatever comes first. One that is so fast on both sides that this takes very many
+/// sub-steps is not followed to its end.
 ///
 /// Scratch memory for one thread.
 class PointFlow {
@@ -67,6 +69,8 @@ class PointFlow {
   void derivative(const Values& x, Values& result);
   void put(const Values& x);
   [[nodiscard]] double relative_error() const;
+  [[nodiscard]] bool is_sliding() const;
+  [[nodiscard]] double dwell();
   [[nodiscard]] double share_until_event(double h);
   [[nodiscard]] bool is_event(double share);
 

@@ -101,6 +101,19 @@ TEST(PointFlow, WhatSlidesStays) {
   EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h < 0, 1, -3)", "h"), 0.75)[1], 0.09375, 1e-3);
 }
 
+TEST(PointFlow, WhatSlidesStaysWithinAPartOfAStepHoweverFastItIs) {
+  const double part = 0.125 / 64;
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h > 0, -1e9, 1)", "0"), 0.1)[0], 0.0, 1.01 * part);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h > 0, -1, 1e9)", "0"), 0.1)[0], 0.0, 1.01 * part);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "-100*sign(h)", "0"), 0.1)[0], 0.0, 1.01 * part);
+}
+
+TEST(PointFlow, WhatIsFastOnBothSidesOfAJumpIsNotFollowed) {
+  const std::vector<std::int32_t> moving{0};
+  const SystemSpec spec = flow_spec(kOpen, "-1e9*sign(h)", "0");
+  EXPECT_EQ(PointFlow(spec, moving).after_period(std::vector<double>{0.1, 0.0, 0.0}), std::nullopt);
+}
+
 TEST(PointFlow, WhatIsHeldIsLetGo) {
   // h = 1/4 + t up to its limit 1 - which it leaves when p = 3/4 - 2t has become negative.
   const std::vector<double> end = after_period(flow_spec(kStopped, "if(p > 0, 4, -2)", "-2"), 0.5, 0.75);
