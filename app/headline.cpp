@@ -67,13 +67,16 @@ class Headline {
     if (is_plain_) return fmt::format("The {} never need to coordinate: every delay is unbounded.", who());
     return unbounded_text(kept) + ".";
   }
+  /// Where no finite number of steps is the longest, the best state is one of these.
   [[nodiscard]] std::string unbounded_text(std::int64_t kept) const {
-    if (is_plain_) return fmt::format("From {} the {} never need to coordinate", cells(kept), who());
-    return fmt::format("From {} any number of steps {} is safe", cells(kept), suffix_);
+    const std::string from = cells(kept) + (entry_["layers"].size() < 3 ? best_state("e.g. ") : "");
+    if (is_plain_) return fmt::format("From {} the {} never need to coordinate", from, who());
+    return fmt::format("From {} any number of steps {} is safe", from, suffix_);
   }
-  [[nodiscard]] std::string best_state() const {
+  [[nodiscard]] std::string best_state(const char* before = "") const {
     const auto found = entry_.find("best_state");
-    return found == entry_.end() || found->is_null() ? "" : " (" + values_text(*found) + ")";
+    if (found == entry_.end() || found->is_null()) return "";
+    return fmt::format(" ({}{})", before, values_text(*found));
   }
 
   const Json& entry_;

@@ -9,6 +9,7 @@
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
 #include "app/render.hpp"
+#include "results/read_info.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -32,7 +33,7 @@ class AnswerText {
 
   [[nodiscard]] std::string all() const {
     std::string text = head();
-    for (const Json& partition : answer_["partitions"]) text += partition_text(partition);
+    for (std::size_t p = 0; p < answer_["partitions"].size(); ++p) text += partition_text(p);
     if (!answer_["inside"].get<bool>()) return text;
     text += sections_text();
     for (const AnswerPolicy& policy : form_.of_agents) {
@@ -132,7 +133,19 @@ class AnswerText {
     return policies;
   }
 
-  [[nodiscard]] std::string partition_text(const Json& partition) const {
+  /// For how long silence is safe at the best state, by what the spec asks for; nothing where there is none.
+  [[nodiscard]] std::string best_text(std::size_t p) const {
+    if (!is_looked_at(form_.results)) return "";
+    const AnswerPolicy policy = headline_policies(form_.spec()).front();
+    const StoredPartition sizes = read_partition_values(form_.spec(), form_.results, policy.sizes())[p];
+    const Json state = best_state_json(form_.results, policy, p, sizes);
+    if (state.is_null()) return "";
+    const std::size_t layers = sizes.layer_sizes.size();
+    return fmt::format("{} at {}", layers < 3 ? "unbounded" : steps_text(layers - 2), values_text(state));
+  }
+
+  [[nodiscard]] std::string partition_text(std::size_t p) const {
+    const Json& partition = answer_["partitions"][p];
     Facts facts;
     for (const AnswerPolicy& policy : lead_first()) {
       const Json& entry = policy.name.empty() ? partition : partition[policy.name];
@@ -148,6 +161,8 @@ class AnswerText {
         facts.emplace_back("  " + field->shown.asked.words,
                            value_text(*field, partition, field->shown.asked.name));
     }
+    const std::string best = best_text(p);
+    if (!best.empty()) facts.emplace_back("  best state", best);
     return fmt::format("\npartition {}\n{}", text_of(partition["name"]), facts_text(facts));
   }
 

@@ -11,7 +11,7 @@
 #include "app/text.hpp"
 #include "base/requires.hpp"
 #include "export/report_page.hpp"
-#include "results/first_largest.hpp"
+#include "results/read_info.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -55,11 +55,12 @@ class PartitionAnswer {
     if (unbounded() == 0)
       return fmt::format("{} may be silent for <strong>{}</strong>{} from the best state{}.", capital(who()),
                          length, how_, best_state());
+    const std::string from =
+        share_text(unbounded(), whole()) + " of the states" + (last < 2 ? best_state("e.g. ") : "");
     const std::string always =
-        how_.empty() ? fmt::format("From {} of the states {} never need to talk to each other",
-                                   share_text(unbounded(), whole()), who())
-                     : fmt::format("From {} of the states {} may be silent <strong>indefinitely</strong>{}",
-                                   share_text(unbounded(), whole()), who(), how_);
+        how_.empty()
+            ? fmt::format("From {} {} never need to talk to each other", from, who())
+            : fmt::format("From {} {} may be silent <strong>indefinitely</strong>{}", from, who(), how_);
     if (last == 0) return always + ".";
     if (last == 1) return always + "; from the others not even for one step.";
     return fmt::format("{}; from the best of the others{} they may be silent for <strong>{}</strong>.",
@@ -152,7 +153,7 @@ class PartitionAnswer {
     return "for at least " + time_text(end - sizes.begin() - 1, results_);
   }
 
-  [[nodiscard]] std::string best_state() const {
+  [[nodiscard]] std::string best_state(const char* before = "") const {
     if (best_cell_ < 0) return "";
     std::string text;
     const UniformGrid& grid = results_.grid();
@@ -162,7 +163,7 @@ class PartitionAnswer {
                           nearest_double(grid[i].point(grid.index(best_cell_, i))),
                           unit.empty() ? "" : " " + html_line(unit));
     }
-    return fmt::format(" <span class=\"note\">({})</span>", text);
+    return fmt::format(" <span class=\"note\">({}{})</span>", before, text);
   }
 
   static std::string capital(std::string text) {
@@ -223,17 +224,11 @@ class Answers {
     return std::find(data_.partitions.begin(), data_.partitions.end(), p) != data_.partitions.end();
   }
 
-  /// -1: it is not looked for.
-  [[nodiscard]] std::int64_t best_cell(std::size_t p, const AnswerPolicy& policy) const {
-    if (!is_shown(p)) return -1;
-    const auto read = [&](const CellBlock& block) { return results_.values(policy.layered(), p, block); };
-    if (!policy.name.empty()) return first_largest(results_.grid(), read);
-    const auto at = std::find(data_.partitions.begin(), data_.partitions.end(), p) - data_.partitions.begin();
-    return data_.best_cells[static_cast<std::size_t>(at)];
-  }
-
   [[nodiscard]] PartitionAnswer answer_of(std::size_t p, std::size_t i) const {
-    return {results_, sizes_[i][p], policies_[i], best_cell(p, policies_[i]), policies_.size() == 1};
+    const StoredPartition& sizes = sizes_[i][p];
+    const std::int64_t best =
+        is_shown(p) ? best_cell(results_, policies_[i], p, sizes) : -1;  // else not looked for
+    return {results_, sizes, policies_[i], best, policies_.size() == 1};
   }
 
   const ResultsReader& results_;

@@ -57,25 +57,41 @@ void add_axes(const ResultsReader& results, Json& info) {
 }
 
 void add_best_states(const ResultsReader& results, Json& info) {
-  const std::size_t partitions = results.partitions().size();
-  if (results.grid().cells() > kMostCellsLookedAt / static_cast<std::int64_t>(partitions)) return;
-  const AnswerPolicy policy = headline_policies(results.spec()).front();
-  const std::vector<StoredPartition> sizes = read_partition_values(results.spec(), results, policy.sizes());
-  for (std::size_t p = 0; p < partitions; ++p) {
-    Json& entry = info["partitions"][p];
-    (policy.name.empty() ? entry : entry[policy.name])["best_state"] =
-        best_state_json(results, policy, p, sizes[p]);
+  if (!is_looked_at(results)) return;
+  for (const AnswerPolicy& policy : headline_policies(results.spec())) {
+    const std::vector<StoredPartition> sizes = read_partition_values(results.spec(), results, policy.sizes());
+    for (std::size_t p = 0; p < sizes.size(); ++p) {
+      Json& entry = info["partitions"][p];
+      (policy.name.empty() ? entry : entry[policy.name])["best_state"] =
+          best_state_json(results, policy, p, sizes[p]);
+    }
   }
 }
 
 }  // namespace
 
+bool is_looked_at(const ResultsReader& results) {
+  const std::size_t arrays = results.partitions().size() * headline_policies(results.spec()).size();
+  return results.grid().cells() <= kMostCellsLookedAt / static_cast<std::int64_t>(arrays);
+}
+
+std::int64_t best_cell(const ResultsReader& results, const AnswerPolicy& policy, std::size_t p,
+                       const StoredPartition& sizes) {
+  const bool is_finite = sizes.layer_sizes.size() > 2;
+  if (sizes.truncated() || (!is_finite && sizes.layer_sizes.back() == 0)) return -1;
+  return first_largest(results.grid(), [&](const CellBlock& block) {
+    std::vector<std::int32_t> steps = results.values(policy.layered(), p, block);
+    for (std::int32_t& value : steps) {
+      if (!is_finite && value != ResultsReader::kNever) value = -1;
+    }
+    return steps;
+  });
+}
+
 Json best_state_json(const ResultsReader& results, const AnswerPolicy& policy, std::size_t p,
                      const StoredPartition& sizes) {
-  if (sizes.truncated() || sizes.layer_sizes.size() < 3) return {};
   const UniformGrid& grid = results.grid();
-  const std::int64_t cell =
-      first_largest(grid, [&](const CellBlock& block) { return results.values(policy.layered(), p, block); });
+  const std::int64_t cell = best_cell(results, policy, p, sizes);
   if (cell < 0) return {};
   Json json = Json::object();
   for (std::size_t i = 0; i < grid.size(); ++i)

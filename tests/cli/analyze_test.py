@@ -259,7 +259,7 @@ $""",
         self.assertEqual(summary["partitions"][0]["layers"], [3, 2])
         text = self.run_program("analyze", "spec.json").stdout.decode()
         self.assertIn(
-            "  From 2 cells the agents never need to coordinate; from the others not even one step without "
+            "  From 2 cells (e.g. x = 0) the agents never need to coordinate; from the others not even one step without "
             "coordination is safe.\n",
             text,
         )

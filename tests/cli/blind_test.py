@@ -72,7 +72,7 @@ class Cases(Case):
     def test_hand_cases(self):
         self.assertEqual(
             self.blind(MATCH),
-            {"F": 1, "layers": [2, 1], "fixed_point": 1, "truncated": False, "best_state": None, "as_much": 1},
+            {"F": 1, "layers": [2, 1], "fixed_point": 1, "truncated": False, "best_state": {"s": 0, "e": 0}, "as_much": 1},
         )
         delay, countdown, sizes, fixed = self.arrays(
             "blind_delay", "blind_countdown", "blind_layer_size", "blind_fixed_point_index"

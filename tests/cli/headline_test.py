@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 import numpy
-from program import CONFIGS, Case, without_comments
+from program import CONFIGS, Case, spec_with, without_comments
 
 RULE = {"first": "u1 == -1", "second": "u2 == -1"}
 
@@ -23,9 +23,7 @@ class Cases(Case):
         text = self.run_program("analyze", "spec.json", "-o", "out.h5").stdout.decode()
         lines = re.findall(r"(?m)^  ((?:From|Stopped|The agents|All agents) .*)$", text)
         info = self.run_program("info", "out.h5").stdout.decode()
-        # Of the first answer alone it looks for a state.
-        told = [lines[0], *(re.sub(r" \([^)]*=[^)]*\)", "", line) for line in lines[1:])]
-        self.assertEqual(re.findall(r"(?m)^  ((?:From|Stopped|The agents|All agents) .*)$", info), told)
+        self.assertEqual(re.findall(r"(?m)^  ((?:From|Stopped|The agents|All agents) .*)$", info), lines)
         self.assertLess(info.index(lines[0]), info.index("\naxis "))
         self.run_program("report", "out.h5", "-o", "out.html")
         page = (self.folder / "out.html").read_text()
@@ -65,7 +63,7 @@ class Cases(Case):
         self.assertIn("of silence by independent choice", lines[1])
         state, steps = self.best("silence")
         if entry["silence"]["fixed_point"] > 0:
-            self.assertTrue(lines[0].startswith(f"From {entry['silence']['fixed_point']:,} cells any number of steps "), lines)
+            self.assertTrue(lines[0].startswith(f"From {entry['silence']['fixed_point']:,} cells "), lines)
         if steps > 0:
             self.assertEqual(entry["silence"]["best_state"], state)
             self.assertIn(f"({self.words(state)}), {steps} step", lines[0])
@@ -74,6 +72,24 @@ class Cases(Case):
         self.assertIn("by independent choice", shown[1])
         query = self.run_program("query", "out.h5", "--at", "p1=-4,v1=1,p2=-4,v2=1").stdout.decode()
         self.assertLess(query.index("\n  silence"), query.index("\n  delay"))
+
+    def test_a_state_is_named_where_the_rule_is_safe_indefinitely_or_not_at_all(self):
+        """The rule keeps its cells for ever or loses them at once: no finite number of steps is above 0."""
+        still = {"a": "u == 0", "b": "v == 0"}
+        _, lines, shown, found = self.answers(spec_with(silence={"actions": still, "then": still}))
+        (partition,) = found["partitions"]
+        self.assertLess(len(partition["silence"]["layers"]), 3)
+        with h5py.File(self.folder / "out.h5") as file:
+            unbounded = file["silence"][0] == numpy.iinfo(numpy.int32).max
+            index = numpy.unravel_index(numpy.argmax(unbounded), unbounded.shape)
+            state = {"x": file["x"][index[0]], "y": file["y"][index[1]]}
+        self.assertEqual(partition["silence"]["best_state"], state)
+        info = json.loads(self.run_program("info", "out.h5", "--json").stdout)
+        self.assertEqual(info["partitions"][0]["silence"]["best_state"], state)
+        self.assertIn(f" cells (e.g. {self.words(state)}) any number of steps of silence by the communication-loss rule is safe", lines[0])
+        self.assertIn(f"(e.g. x = {state['x']:g} m, y = {state['y']:g} m)", shown[0])
+        query = self.run_program("query", "out.h5", "--at", "x=1,y=1").stdout.decode()
+        self.assertRegex(query, rf"\n  best state +unbounded at {re.escape(self.words(state))}\n")
 
     def test_own_observations_come_before_independent_choice(self):
         spec = json.loads(without_comments((CONFIGS / "blind_crossing.json").read_text()))

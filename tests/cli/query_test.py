@@ -27,6 +27,7 @@ partition a|b
   connect in    2 steps (1 s)
   actions of a  all 3
   actions of b  all 3
+  best state    3 steps (1.5 s) at x = 0, y = 0
 """
 
 

@@ -38,10 +38,16 @@ struct Touched {
 
 /// The level of the cells with the longest finite delay; nothing if there is no finite delay above 0, or if
 /// none is known to be the longest.
-std::optional<std::int64_t> best_level(const DelayLayers& layers) {
+std::optional<std::int64_t> finite_level(const DelayLayers& layers) {
   const auto last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
   if (layers.truncated || last < 2) return std::nullopt;
   return last;
+}
+
+/// The same, but LevelMap::kTop where no finite delay is above 0 and some are unbounded.
+std::optional<std::int64_t> best_level(const DelayLayers& layers) {
+  if (!layers.truncated && layers.sizes.size() <= 2 && layers.sizes.back() > 0) return LevelMap::kTop;
+  return finite_level(layers);
 }
 
 /// The first of some levels that is this one, or their end.
@@ -126,7 +132,7 @@ Json best_state_json(const AnalysisContext& context, const DelayLayers& layers) 
 }
 
 std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const DelayLayers& layers) {
-  const std::optional<std::int64_t> level = best_level(layers);
+  const std::optional<std::int64_t> level = finite_level(layers);
   if (!level) return {};
   const std::int64_t last = *level;
   const UniformGrid& grid = context.abstraction->grid;

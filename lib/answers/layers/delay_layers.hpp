@@ -39,8 +39,8 @@ struct DelayLayers {
       false;  ///< `max_delay` came first: the last layer's delays are lower bounds, none is unbounded
   WaveCounts counts;
   std::optional<LeavingCounts> leaving = {};  ///< nothing if such cells are not counted
-  /// The first cell, by its number in the order of the spec, of those with the longest finite delay; nothing
-  /// if there is no finite delay above 0, or if none is known to be the longest. See find_best_cell().
+  /// The first cell, in the order of the spec, with the longest finite delay, or, if none is above 0, with an
+  /// unbounded one; nothing if there is neither, or none is known to be the longest. See find_best_cell().
   std::optional<std::int64_t> best_cell = {};
 
   /// The delay that LevelMap::kTop stands for.
