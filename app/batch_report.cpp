@@ -141,6 +141,23 @@ Json run_json(const FinishedRun& run) {
   return json;
 }
 
+/// Lines about one requirement; of the runs beyond them the number is told.
+constexpr std::size_t kMostFailures = 10;
+
+/// A requirement of some runs, and why it fails in them.
+struct FailedRequirement {
+  std::string claim;
+  std::vector<std::string> failures;
+};
+
+void add_failure(const std::string& claim, const std::string& failure,
+                 std::vector<FailedRequirement>& failed) {
+  const auto known = std::find_if(failed.begin(), failed.end(),
+                                  [&](const FailedRequirement& other) { return other.claim == claim; });
+  FailedRequirement& own = known == failed.end() ? failed.emplace_back(FailedRequirement{claim, {}}) : *known;
+  own.failures.push_back(failure);
+}
+
 }  // namespace
 
 int worst_exit_code(const std::vector<FinishedRun>& runs) {
@@ -178,15 +195,25 @@ std::string BatchTable::row(const FinishedRun& run) const {
 }
 
 std::string failures_text(const std::vector<FinishedRun>& runs) {
-  std::string text;
+  std::vector<FailedRequirement> failed;
   for (const FinishedRun& run : runs) {
     if (!run.summary) continue;
     for (const Json& entry : (*run.summary)["requirements"]) {
-      if (entry["holds"]) continue;
-      text += fmt::format("\n{}: requirement {}: {}\n  FAILS: {}.\n", printable(run_label(*run.plan)),
-                          line_of(entry["name"]), claim_text(entry, *run.plan->spec),
-                          failure_line(entry, *run.plan->spec));
+      const ProblemSpec& spec = *run.plan->spec;
+      if (!entry["holds"].get<bool>())
+        add_failure(fmt::format("requirement {}: {}", line_of(entry["name"]), claim_text(entry, spec)),
+                    fmt::format("{}: {}", printable(run_label(*run.plan)), failure_line(entry, spec)),
+                    failed);
     }
+  }
+  std::string text;
+  for (const FailedRequirement& requirement : failed) {
+    text += "\n" + requirement.claim + "\n";
+    const std::size_t told = std::min(requirement.failures.size(), kMostFailures);
+    for (std::size_t i = 0; i < told; ++i) text += "  FAILS in " + requirement.failures[i] + ".\n";
+    if (const std::size_t more = requirement.failures.size() - told; more > 0)
+      text += fmt::format("  FAILS in {} more of the {} runs.\n", grouped(std::uint64_t{more}),
+                          grouped(std::uint64_t{runs.size()}));
   }
   return text;
 }

@@ -41,7 +41,7 @@ class BatchTable {
   Table table_;
 };
 
-/// The requirements that fail, each with the reason, as `analyze` gives it for one spec.
+/// Each requirement that fails, once, with a line for the reason in each of the first runs in which it does.
 [[nodiscard]] std::string failures_text(const std::vector<FinishedRun>& runs);
 
 /// Where the results are.

@@ -121,11 +121,19 @@ class Cases(Case):
         result = self.run_program("analyze", "spec.json", "--sweep", "requirements.0.min_delay=1,20")
         self.assertEqual(result.returncode, 1)
         text = result.stdout.decode()
-        label = "spec.json requirements.0.min_delay=20: requirement slow: "
-        (line,) = [line for line in text.splitlines() if line.startswith(label)]
+        (line,) = [line for line in text.splitlines() if line.startswith("requirement slow: ")]
         self.assertTrue(line.endswith("at least 20 steps (20 s)"), line)
-        self.assertRegex(text, r"\n  FAILS: \d+ of \d+ cells fail, the worst at ")
-        self.assertNotIn("min_delay=1: requirement", text)
+        self.assertRegex(text, r"\n  FAILS in spec.json requirements.0.min_delay=20: \d+ of \d+ cells fail, the worst at ")
+        self.assertNotIn("min_delay=1:", text)
+
+    def test_a_sweep_tells_a_requirement_once_and_counts_what_fails_beyond_ten_runs(self):
+        missed = {"name": "far", "where": "x >= 2.9 and x <= 3.1 and y >= 2.9 and y <= 3.1", "min_delay": 1}
+        self.write("spec.json", spec_with(constants={"most": 6}, safe="x + y <= most", requirements=[missed]))
+        values = [6 + k / 100 for k in range(12)]
+        text = self.run_program("analyze", "spec.json", "--sweep", "constants.most=" + ",".join(map(str, values))).stdout.decode()
+        told = text[text.index("\nrequirement far: ") :].splitlines()[2:]
+        self.assertEqual([line.split(":")[0] for line in told[:10]], [f"  FAILS in spec.json constants.most={value}" for value in values[:10]])
+        self.assertEqual(told[10:12], ["  FAILS in 2 more of the 12 runs.", ""])
 
 
 if __name__ == "__main__":

@@ -21,8 +21,8 @@ good.json     25    22         22            1 of 1      SECS    MEMORY     4   
 none.json  error: no such file (none.json)
 bad.json      25    22         22            1 of 2      SECS    MEMORY     4          0  3 steps (1.5 s)
 
-bad.json: requirement far: delay of a|b at least 1 step (0.5 s)
-  FAILS: 1 of 1 cell fails, the worst at x = 3, y = 3: it has a delay of 0 steps (0 s).
+requirement far: delay of a|b at least 1 step (0.5 s)
+  FAILS in bad.json: 1 of 1 cell fails, the worst at x = 3, y = 3: it has a delay of 0 steps (0 s).
 
 results in 2 files in the current folder
 """
