@@ -9,27 +9,12 @@
 #include "answers/layers/delay_layers.hpp"
 #include "base/index.hpp"
 #include "base/requires.hpp"
+#include "cell/smallest_score.hpp"
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-/// The candidate with the smallest (score, number). Scores in double arithmetic sort out most of them, so
-/// that few need the sharp one.
-template <class Approximate, class Sharp>
-std::int64_t smallest(const std::vector<std::int64_t>& candidates, const Approximate& approximate,
-                      const Sharp& sharp) {
-  std::vector<double> scores;
-  for (const std::int64_t u : candidates) scores.push_back(approximate(u));
-  const double lowest = *std::min_element(scores.begin(), scores.end());
-  const double slack = std::isfinite(lowest) ? 1e-9 * std::max(1.0, std::fabs(lowest)) : 0.0;
-  std::pair<double, std::int64_t> best{outward::kInfinity, std::numeric_limits<std::int64_t>::max()};
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (scores[i] <= lowest + slack) best = std::min(best, std::pair(sharp(candidates[i]), candidates[i]));
-  }
-  return best.second;
-}
 
 /// C(x) outside K.
 const std::vector<std::int64_t> kNoInputs;
@@ -55,7 +40,7 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
       inputs_(*problem.spec, posts_, sets()),
       controller_(&controller),
       classes_(input_classes(*problem.spec, problem.abstraction->inputs, *problem.partition)),
-      margin_(problem.spec->safe),
+      margin_(*problem.spec, problem.abstraction->inputs, dynamics),
       nominal_(*problem.spec, *problem.abstraction, dynamics),
       no_error_(problem.spec->states.size()),
       slots_(problem.spec->slot_count()),
@@ -79,10 +64,6 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
     if (agent.prefer) prefer_.back().emplace(*agent.prefer);
   }
   for (const DisturbanceSpec& w : problem.spec->disturbances) middle_.emplace_back((w.lower + w.upper) / 2);
-  const std::vector<std::uint32_t> in_margin = problem.spec->safe.variables();
-  for (std::size_t i = 0; i < problem.spec->states.size(); ++i) {
-    if (contains(in_margin, problem.spec->state_slot(i))) states_of_margin_.push_back(i);
-  }
   find_nominal();
 }
 
@@ -174,42 +155,7 @@ std::int64_t ActionChooser::choose_worst(NextStates& next) {
     lowest = delay;
     worst.push_back(u);
   });
-  return worst.size() == 1 ? worst.front() : smallest_margin(next, worst);
-}
-
-/// Of all candidates that lead to the same values where the margin looks the one with the smallest number.
-ActionChooser::Numbers ActionChooser::of_different_margin(NextStates& next, const Numbers& candidates) const {
-  constexpr std::int64_t kUnknown = -1;
-  std::map<Numbers, std::int64_t> first;
-  for (const std::int64_t u : candidates) {
-    Numbers key;
-    if (!next.is_known(u)) key.push_back(kUnknown);
-    for (const std::size_t i : states_of_margin_) {
-      if (next.is_known(u)) key.push_back(next.inputs_of(i, u));
-    }
-    const auto [entry, is_new] = first.try_emplace(std::move(key), u);
-    if (!is_new) entry->second = std::min(entry->second, u);
-  }
-  Numbers result;
-  for (const auto& [key, u] : first) result.push_back(u);
-  return result;
-}
-
-std::int64_t ActionChooser::smallest_margin(NextStates& next, const Numbers& candidates) {
-  const ProblemSpec& spec = *problem_.spec;
-  return smallest(
-      of_different_margin(next, candidates),
-      [&](std::int64_t u) {
-        if (!next.is_known(u)) return -outward::kInfinity;
-        for (const std::size_t i : states_of_margin_)
-          doubles_[spec.state_slot(i)] = next.state(i, u).approximate;
-        return margin_.approximate(doubles_);
-      },
-      [&](std::int64_t u) {
-        if (!next.is_known(u)) return -outward::kInfinity;
-        for (const std::size_t i : states_of_margin_) slots_[spec.state_slot(i)] = next.state(i, u).value;
-        return margin_.value(slots_);
-      });
+  return worst.size() == 1 ? worst.front() : margin_.smallest(next, worst);
 }
 
 std::int64_t ActionChooser::choose_preferred(std::int64_t cell, std::span<const Rational> measured) {
@@ -241,7 +187,7 @@ std::int64_t ActionChooser::smallest_preference(const std::vector<std::int32_t>&
     }
     return known(total);
   };
-  return smallest(
+  return smallest_score(
       candidates,
       [&](std::int64_t u) {
         if (!nominal_.is_known(u)) return outward::kInfinity;

@@ -12,7 +12,7 @@
 #include "answers/one_cell/kept_inputs.hpp"
 #include "answers/one_cell/policy.hpp"
 #include "cell/lossy_network.hpp"
-#include "cell/margin.hpp"
+#include "cell/next_margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"
 #include "engine/cell_set.hpp"
@@ -120,8 +120,6 @@ class ActionChooser {
   template <class Visit>
   void for_each_choice(const Visit& visit) const;
   [[nodiscard]] std::int64_t delay_after(NextStates& next, std::int64_t u) const;
-  [[nodiscard]] std::int64_t smallest_margin(NextStates& next, const Numbers& candidates);
-  [[nodiscard]] Numbers of_different_margin(NextStates& next, const Numbers& candidates) const;
   [[nodiscard]] std::int64_t smallest_preference(const std::vector<std::int32_t>& agents,
                                                  const Numbers& candidates);
   void find_nominal();
@@ -141,8 +139,7 @@ class ActionChooser {
   std::vector<std::unique_ptr<CellPolicy>> cell_policies_;
   std::vector<InputClass> classes_;
   std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
-  Margin margin_;
-  std::vector<std::size_t> states_of_margin_;      ///< on which it depends
+  NextMargin margin_;
   std::vector<std::optional<PointValue>> prefer_;  ///< by agent
   NextStates nominal_;
   std::vector<Rational> middle_;    ///< of each disturbance

@@ -40,17 +40,17 @@ Margin::Margin(const Program& condition) : formula_(std::make_unique<Formula>(ta
 
 double Margin::value(std::span<const Rational> slots) {
   for (std::size_t i = 0; i < differences_.size(); ++i) difference_values_[i] = differences_[i].value(slots);
-  return combine();
+  return of_differences(difference_values_);
 }
 
 double Margin::approximate(std::span<const double> slots) {
   for (std::size_t i = 0; i < differences_.size(); ++i) {
     difference_values_[i] = differences_[i].approximate(slots);
   }
-  return combine();
+  return of_differences(difference_values_);
 }
 
-double Margin::combine() {
+double Margin::of_differences(std::span<const double> differences) {
   for (std::size_t i = 0; i < node_values_.size(); ++i) {
     const Formula::Node& node = formula_->nodes[i];
     double& value = node_values_[i];
@@ -74,7 +74,7 @@ double Margin::combine() {
         value = std::numeric_limits<double>::quiet_NaN();
         break;
       default:
-        value = margin_of(formula_->comparisons[node.a].op, difference_values_[node.a]);
+        value = margin_of(formula_->comparisons[node.a].op, differences[node.a]);
     }
   }
   const double result = node_values_.back();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -26,9 +28,22 @@ class Margin {
   /// In double arithmetic.
   [[nodiscard]] double approximate(std::span<const double> slots);
 
- private:
-  [[nodiscard]] double combine();
+  /// The comparisons in the condition, and the slots on which one depends.
+  [[nodiscard]] std::size_t comparisons() const { return differences_.size(); }
+  [[nodiscard]] std::vector<std::uint32_t> variables(std::size_t comparison) const {
+    return formula_->comparisons[comparison].difference.variables();
+  }
+  /// The difference of the sides of a comparison, as value() and approximate() find it.
+  [[nodiscard]] double difference(std::size_t comparison, std::span<const Rational> slots) {
+    return differences_[comparison].value(slots);
+  }
+  [[nodiscard]] double approximate_difference(std::size_t comparison, std::span<const double> slots) {
+    return differences_[comparison].approximate(slots);
+  }
+  /// The margin that follows from the differences of all comparisons.
+  [[nodiscard]] double of_differences(std::span<const double> differences);
 
+ private:
   std::unique_ptr<const Formula> formula_;
   std::vector<PointValue> differences_;
   std::vector<double> difference_values_;

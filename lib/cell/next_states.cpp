@@ -29,6 +29,10 @@ NextStates::NextStates(const SystemSpec& spec, const Abstraction& abstraction, P
     axis.is_quick = !dimension.discrete && !dimension.periodic() && !resets && !spec.dynamics.is_kept(i) &&
                     (dimension.first == 0 || std::isnormal(axis.first)) && std::isnormal(axis.step);
   }
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    inputs_.emplace_back(abstraction.inputs, dynamics.dependencies(i).inputs);
+    if (abstraction.inputs.count() <= kMostTabulated) inputs_.back().tabulate();
+  }
   for (std::size_t i = 0; i < abstraction.inputs.size(); ++i) {
     input_values_.emplace_back();
     for (const Rational& value : abstraction.inputs[i].values)
@@ -50,16 +54,8 @@ void NextStates::begin(std::span<const Rational> state, std::span<const Rational
   for (auto& entries : entries_) entries.clear();
 }
 
-std::int64_t NextStates::inputs_of(std::size_t i, std::int64_t u) const {
-  const InputSpace& inputs = abstraction_->inputs;
-  std::int64_t key = 0;
-  for (const std::int32_t j : dynamics_->dependencies(i).inputs)
-    key += inputs.index(u, at(j)) * inputs.stride(at(j));
-  return key;
-}
-
 NextStates::Entry& NextStates::entry(std::size_t i, std::int64_t u) {
-  const auto [found, is_new] = entries_[i].try_emplace(inputs_of(i, u));
+  const auto [found, is_new] = entries_[i].try_emplace(inputs_[i].action(u));
   Entry& result = found->second;
   if (!is_new) return result;
   for (const std::int32_t j : dynamics_->dependencies(i).inputs) {

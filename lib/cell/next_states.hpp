@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "model/input_class.hpp"
 #include "model/locate.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/point_dynamics.hpp"
@@ -17,6 +18,9 @@ namespace coordreq {
 /// doubles with a bound on their error, unless that leaves two cells: most exact values are never needed.
 class NextStates {
  public:
+  /// Of up to so many joint inputs it is kept what each means to a state.
+  static constexpr std::int64_t kMostTabulated = 16'384;
+
   struct Value {
     bool known = false;  ///< false: undefined, not finite, or not to be followed; the rest then means nothing
     double followed = 1.0;  ///< but for this: the share of the period up to which it could be
@@ -40,8 +44,6 @@ class NextStates {
              std::span<const Rational> error, std::int64_t cell);
 
   [[nodiscard]] const Value& state(std::size_t i, std::int64_t u);
-  /// A number for the values of the inputs that state `i` depends on: if it is equal, so is the next state.
-  [[nodiscard]] std::int64_t inputs_of(std::size_t i, std::int64_t u) const;
   /// Where the next state is measured, as locate() has it; `beyond` if it is not known.
   [[nodiscard]] Place place(std::int64_t u);
   /// All states are known under `u`.
@@ -76,7 +78,8 @@ class NextStates {
   std::vector<Rational> slots_;
   std::vector<double> doubles_;  ///< nearest to `slots_`
   std::vector<Rational> error_;
-  std::vector<std::unordered_map<std::int64_t, Entry>> entries_;  ///< by state, then inputs_of()
+  std::vector<InputClass> inputs_;                                ///< [state] those that it depends on
+  std::vector<std::unordered_map<std::int64_t, Entry>> entries_;  ///< [state], by actions of its inputs
   std::vector<std::vector<double>> input_values_;
   std::vector<UniformGrid> axes_;  ///< each dimension as a grid of its own
   std::vector<Axis> quick_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace coordreq {
 class PointValue {
  public:
   /// @pre `program` is a number. @pre unchecked: it outlives this object
-  explicit PointValue(const Program& program) : fast_(program), exact_(program) {
+  explicit PointValue(const Program& program)
+      : variables_(program.variables()), fast_(program), exact_(program) {
     REQUIRES(!program.is_condition());
   }
 
@@ -25,6 +27,7 @@ class PointValue {
   [[nodiscard]] double value(std::span<const Rational> slots);
 
  private:
+  std::vector<std::uint32_t> variables_;  ///< only their slots are read
   Evaluator<double> fast_;
   Evaluator<RationalInterval> exact_;
   std::vector<RationalInterval> points_;
