@@ -31,6 +31,17 @@ struct RowSegment {
 /// One state's transition table (or its table of tubes) cut into rows along the last state dimension: for
 /// each choice of the other states and of the inputs in use the number of a slice, equal slices stored once.
 ///
+/// Example: x(next) = x + 3 along a row of 10 cells. The row is cut where the form of the range changes:
+///
+///     cells         0  1  2  3  4  5  6 | 7  8  9
+///     raw indices   3  4  5  6  7  8  9 | 10 11 12
+///     `saturate`    [0, 7) shifted 3..3 | [7, 10) fixed 9..9
+///     `safe`        [0, 7) shifted 3..3 | [7, 10) gone
+///     `unsafe`      [0, 7) shifted 3..3 | [7, 10) blocked
+///
+/// So the row has one slice of two segments for this input, and the minimum over posts of seven cells is one
+/// shifted copy of the row of levels.
+///
 /// 1. A slice is a list of segments that together cover the row. `shifted` occurs only for the last dimension
 ///    itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
 /// 2. If the state is periodic, 0 <= range.first < count, and range.last may be beyond as in ResolvedRange.

@@ -42,6 +42,17 @@ class RowOperator {
 /// of one step a sweep. (The layers of the intersection take 5 sweeps and 1.8 visits a row instead of 90
 /// sweeps.)
 ///
+/// Example: a line of cells 0, ..., 5, all in K. Every action of cell c leads to c + 1, and beyond 5 is
+/// unsafe, so that cell c is lost in 6 - c steps. All levels begin as kTop ("^").
+///
+///     given                        ^ ^ ^ ^ ^ ^
+///     sweep 1, from 0 to 5         ^ ^ ^ ^ ^ 1    only cell 5 has a post that is blocked: 1 + 0
+///     sweep 2, from 5 to 0         6 5 4 3 2 1    each cell sees what the one after it has just become
+///     sweep 3                      6 5 4 3 2 1    nothing changes: this is the solution
+///
+/// The synchronous iteration takes 7 rounds for the same: its Z_k are {c : level(c) > k}. Where the limit is
+/// 3, levels above it count as kTop, ^ ^ ^ 3 2 1.
+///
 /// Threads: called by one thread, which shares each batch with the team and calls `watch.step` between
 /// batches. Nobody else may touch the levels meanwhile. Of several processes all call it together.
 ///

@@ -35,6 +35,15 @@ struct TransitionTerm {
 ///   integers of which the upper 32 bits are the index, so that a row of ranges is one vector addition. A sum
 ///   may be a shift, too.
 ///
+/// Example: x(next) = x + u with cells of width 1, numbered 0, ..., 9, and u = 0.5 or -2. A cell moved by 0.5
+/// meets itself and the next one; moved by -2 (half-open cells) exactly one other. In full that is an entry
+/// for each of 10 cells and 2 inputs. As a shift it is one for each input,
+///
+///     u = 0.5   [0, 1]       cell 4 goes to raw indices 4..5, cell 9 to 9..10
+///     u = -2    [-2, -2]     cell 4 goes to 2, cell 1 to -1
+///
+/// and `outside` says afterwards what 10 and -1 mean: resolve().
+///
 /// Read it through range() or, a row at a time, TableRows.
 struct TransitionTable {
   std::vector<std::int32_t> states;      ///< that the next index depends on, the own one included; ascending

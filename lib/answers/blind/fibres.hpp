@@ -11,6 +11,17 @@ namespace coordreq {
 
 /// The fibres of a class (contract, section 8): cells that agree in all states that it sees. They are
 /// numbered row-major over these states, in the order of the spec.
+///
+/// Example: states x of 3 cells and y of 2. A class that sees x alone has 3 fibres of 2 cells, one that sees
+/// both has 6 of one cell, one that sees nothing a single one of 6:
+///
+///     cell (x, y)   (0,0) (0,1) (1,0) (1,1) (2,0) (2,1)
+///     sees x          0     0     1     1     2     2
+///     sees y          0     1     0     1     0     1
+///
+/// A class cannot tell cells of a fibre apart, so it needs one action for all of them that are left. If
+/// C(0,0) leaves it {-1, 0} and C(0,1) leaves it {0, 1}, that is 0; if they leave it {-1} and {1} there is
+/// none, and the cells that lack the most frequent action are not in B_1.
 class Fibres {
  public:
   /// @param seen states, ascending

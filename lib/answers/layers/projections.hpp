@@ -17,6 +17,16 @@ namespace coordreq {
 
 /// The projections of C onto the classes of one partition: IND_C(x) is their product (paper, Eq. (4); with
 /// every agent by itself Eq. (3)). Held for each row that this process owns, in the form with the least work.
+///
+/// Example: one vehicle may brake (-1), roll (0) or accelerate (1), and so may the other. In a cell x where
+/// both are as far from the crossing only one of them may go first, C(x) = {(1, -1), (-1, 1), (-1, -1)}:
+///
+///     projection on the first   {-1, 1}       some action of the second fits each of them
+///     projection on the second  {-1, 1}
+///     IND_C(x)                  {(-1, -1), (-1, 1), (1, -1), (1, 1)}
+///
+/// (1, 1) is in IND_C(x), not in C(x): each of them may have meant to go first. If it leads out of K, the
+/// delay of x is 0.
 class Projections {
  public:
   /// @param equal with a symmetry nothing is held of rows that are not canonical, and nothing may be asked of
