@@ -4,15 +4,13 @@
 #include <mutex>
 #include <utility>
 
-#include "base/fast_paths.hpp"
-
 namespace coordreq {
 
 /// The value of the key that was asked for last: while the key stays the same the value is made once, and
 /// there is never more than one. Safe to ask from several threads at once; they wait for each other.
 ///
 /// Why: arrays are written in stretches, but lists of layers and tables written out are made as a whole, and
-/// are large. The switch is FastPaths::last_values.
+/// are large.
 template <class Key, class Value>
 class LastValueCache {
  public:
@@ -20,7 +18,7 @@ class LastValueCache {
   template <class Make>
   [[nodiscard]] std::shared_ptr<const Value> get(const Key& key, const Make& make) {
     const std::lock_guard lock(mutex_);
-    if (keeps_ && value_ != nullptr && key == key_) return value_;
+    if (value_ != nullptr && key == key_) return value_;
     value_ = nullptr;
     value_ = std::make_shared<const Value>(make());
     key_ = key;
@@ -28,7 +26,6 @@ class LastValueCache {
   }
 
  private:
-  const bool keeps_ = fast_paths().last_values;
   std::mutex mutex_;
   Key key_{};
   std::shared_ptr<const Value> value_;

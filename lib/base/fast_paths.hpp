@@ -24,7 +24,6 @@ struct FastPaths {
   bool pair_projections = true;     ///< projections of two classes on bits
   bool choice_bounds = true;        ///< one box a cell for several choices of sums
   bool level_delta = true;          ///< of sums, levels that have changed since the last sweep alone
-  bool last_values = true;          ///< what was made for one stretch of a field serves the next
   // Without these posts may be wider.
   bool sum_tables = true;        ///< a term for each state in which motion is affine
   bool face_flow = true;         ///< bounds by the derivative on faces of the box
@@ -57,7 +56,6 @@ inline constexpr FastPath kFastPaths[] = {
     {"pair_projections", &FastPaths::pair_projections, true},
     {"choice_bounds", &FastPaths::choice_bounds, true},
     {"level_delta", &FastPaths::level_delta, true},
-    {"last_values", &FastPaths::last_values, true},
     {"sum_tables", &FastPaths::sum_tables, false},
     {"face_flow", &FastPaths::face_flow, false},
     {"turning_products", &FastPaths::turning_products, false},
