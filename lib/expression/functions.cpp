@@ -155,8 +155,9 @@ template <Outcome outcome>
 Constant none(const Rational& /*a*/, const Rational& /*b*/) {
   return {outcome, 0};
 }
-Constant quotient_constant(const Rational& /*a*/, const Rational& b) {
-  return {sgn(b) == 0 ? Outcome::zero_divisor : Outcome::too_large, 0};
+Constant quotient_constant(const Rational& a, const Rational& b) {
+  if (sgn(b) != 0) return {Outcome::too_large, 0};
+  return {sgn(a) == 0 ? Outcome::undefined : Outcome::zero_divisor, 0};
 }
 Constant power_constant(const Rational& a, const Rational& b) {
   if (sgn(a) == 0) return {Outcome::zero_divisor, 0};  // 0^b with b < 0

@@ -10,6 +10,7 @@
 #include "expression/other_names.hpp"
 #include "expression/place.hpp"
 #include "expression/syntax.hpp"
+#include "expression/table_function.hpp"
 #include "expression/tape_builder.hpp"
 #include "expression/token.hpp"
 
@@ -19,10 +20,15 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::array<std::string_view, 6> kKeywords{"pi", "and", "or", "not", "true", "false"};
 
+const TableFunction* no_table(std::string_view /*name*/) {
+  return nullptr;
+}
+
 /// Gives names and types to a syntax tree: walks its postfix order with a stack of operands.
 class Linker {
  public:
-  Linker(const Place& place, const Lookup& lookup) : place_(place), lookup_(lookup) {}
+  Linker(const Place& place, const Lookup& lookup, const TableLookup& tables)
+      : place_(place), lookup_(lookup), tables_(tables) {}
 
   Program run(const SyntaxTree& tree, ExpectedType expected) {
     for (const SyntaxTree::Node& node : tree.nodes) stack_.push_back(value_of(tree, node));
@@ -43,8 +49,9 @@ class Linker {
 
   Value value_of(const SyntaxTree& tree, const SyntaxTree::Node& node) {
     if (node.op == Operator::constant) return {tape_.constant(tree.numbers[node.item]), false, node.offset};
-    if (node.op == Operator::variable) return name(tree.names[node.item], node.offset);
+    if (node.op == Operator::variable && node.operands == 0) return name(tree.names[node.item], node.offset);
     const std::vector<Value> operands = take_operands(node.operands);
+    if (node.op == Operator::variable) return call(*tables_(tree.names[node.item]), operands, node.offset);
     if (is_comparison(node.op)) return chain(tree, node, operands);
     check_types(node.op, operands);
     return {apply(node.op, operands), is_condition(node.op), node.offset};
@@ -90,6 +97,18 @@ class Linker {
     return result;
   }
 
+  /// The program of a table with the operands for its variables.
+  Value call(const TableFunction& table, const std::vector<Value>& operands, std::size_t offset) {
+    for (const Value& operand : operands) require_number(operand);
+    std::vector<TapeBuilder::Index> here;
+    here.reserve(table.value.nodes.size());
+    for (const Program::Node& node : table.value.nodes) {
+      const bool is_argument = node.op == Operator::variable;
+      here.push_back(is_argument ? operands[node.a].node : tape_.copy(table.value, node, here));
+    }
+    return {here.back(), false, offset};
+  }
+
   Value name(std::string_view name, std::size_t offset) {
     auto known = known_names_.find(name);
     if (known == known_names_.end()) known = known_names_.emplace(name, resolve(name, offset)).first;
@@ -124,6 +143,7 @@ class Linker {
 
   const Place& place_;
   const Lookup& lookup_;
+  const TableLookup& tables_;
   TapeBuilder tape_;
   std::vector<Value> stack_;
   std::unordered_map<std::string_view, Value> known_names_;
@@ -140,19 +160,31 @@ std::vector<std::uint32_t> Program::variables() const {
   return slots;
 }
 
-Program link(std::string_view text, const Lookup& lookup, ExpectedType expected, std::string_view where) {
+Program link(std::string_view text, const Lookup& lookup, const TableLookup& tables, ExpectedType expected,
+             std::string_view where) {
   const Place place{text, where};
-  return Linker(place, lookup).run(parse(place), expected);
+  return Linker(place, lookup, tables).run(parse(place, tables), expected);
 }
 
-std::vector<std::string> mentioned_names(std::string_view text, std::string_view where) {
-  const SyntaxTree tree = parse(Place{text, where});
+Program link(std::string_view text, const Lookup& lookup, ExpectedType expected, std::string_view where) {
+  return link(text, lookup, no_table, expected, where);
+}
+
+std::vector<std::string> mentioned_names(std::string_view text, const TableLookup& tables,
+                                         std::string_view where) {
+  const SyntaxTree tree = parse(Place{text, where}, tables);
   std::vector<std::string> names;
   std::unordered_set<std::string_view> seen;
-  for (const std::string_view name : tree.names) {
+  for (const SyntaxTree::Node& node : tree.nodes) {
+    if (node.op != Operator::variable || node.operands > 0) continue;
+    const std::string_view name = tree.names[node.item];
     if (!is_reserved_name(name) && seen.insert(name).second) names.emplace_back(name);
   }
   return names;
+}
+
+std::vector<std::string> mentioned_names(std::string_view text, std::string_view where) {
+  return mentioned_names(text, no_table, where);
 }
 
 bool is_reserved_name(std::string_view name) {

@@ -46,7 +46,8 @@ int binary_precedence(const Token& token) {
 /// Functions with temporaries are out of line: inlined, those would be part of every frame of expression().
 class Parser {
  public:
-  explicit Parser(const Place& place) : place_(place), token_(read_token(place.text, 0)) {}
+  Parser(const Place& place, const TableLookup& tables)
+      : place_(place), tables_(tables), token_(read_token(place.text, 0)) {}
 
   SyntaxTree run() {
     expression(kOr);
@@ -155,7 +156,14 @@ class Parser {
     if (word.text == "true") return emit(Operator::literal_true, 0, word.offset);
     if (word.text == "false") return emit(Operator::literal_false, 0, word.offset);
     const std::optional<Function> function = find_function(word.text);
-    if (function) return call(*function, word.offset);
+    if (function) {
+      const std::size_t arguments = arguments_of_call();
+      if (arguments < function->fewest || arguments > function->most)
+        fail_count(*function, arguments, word.offset);
+      return emit(function->op, arguments, word.offset);
+    }
+    if (const TableFunction* const table = tables_(word.text); table != nullptr)
+      return call_table(word, *table);
     if (token_.kind == TokenKind::open) fail_function(word);
     emit(Operator::variable, 0, word.offset, tree_.names.size());
     tree_.names.push_back(word.text);
@@ -171,7 +179,16 @@ class Parser {
     tree_.nodes.back().offset = start;
   }
 
-  void call(const Function& function, std::size_t start) {
+  [[gnu::noinline]] void call_table(const Token& word, const TableFunction& table) {
+    const std::size_t arguments = arguments_of_call();
+    if (arguments != table.arguments)
+      fail_count({word.text, Operator::variable, table.arguments, table.arguments}, arguments, word.offset);
+    emit(Operator::variable, arguments, word.offset, tree_.names.size());
+    tree_.names.push_back(word.text);
+  }
+
+  /// The arguments in parentheses. @returns how many there are
+  std::size_t arguments_of_call() {
     const Level level(*this);
     if (token_.kind != TokenKind::open) fail_expected("'('");
     advance();
@@ -184,8 +201,7 @@ class Parser {
       advance();
     }
     advance();
-    if (arguments < function.fewest || arguments > function.most) fail_count(function, arguments, start);
-    emit(function.op, arguments, start);
+    return arguments;
   }
 
   [[gnu::noinline]] void advance() { token_ = read_token(place_.text, token_.offset + token_.text.size()); }
@@ -272,6 +288,7 @@ class Parser {
   }
 
   const Place& place_;
+  const TableLookup& tables_;
   Token token_;
   SyntaxTree tree_;
   int depth_ = 0;
@@ -279,8 +296,8 @@ class Parser {
 
 }  // namespace
 
-SyntaxTree parse(const Place& place) {
-  return Parser(place).run();
+SyntaxTree parse(const Place& place, const TableLookup& tables) {
+  return Parser(place, tables).run();
 }
 
 }  // namespace coordreq

@@ -7,6 +7,7 @@
 
 #include "expression/operators.hpp"
 #include "expression/place.hpp"
+#include "expression/table_function.hpp"
 #include "numeric/rational.hpp"
 
 namespace coordreq {
@@ -16,11 +17,11 @@ namespace coordreq {
 struct SyntaxTree {
   struct Node {
     Operator op = Operator::constant;
-    std::uint32_t operands =
-        0;                   ///< how many; a comparison with n of them is a chain, `add` with one is a sign
-    std::uint32_t item = 0;  ///< `constant`: index into numbers; `variable`: into names; comparison: the
-                             ///< first of its `operands - 1` entries in comparisons
-    std::size_t offset = 0;  ///< where it starts in the text
+    std::uint32_t operands = 0;  ///< how many; a comparison with n of them is a chain, `add` with one is a
+                                 ///< sign, `variable` with some is a call of a table
+    std::uint32_t item = 0;      ///< `constant`: index into numbers; `variable`: into names; comparison: the
+                                 ///< first of its `operands - 1` entries in comparisons
+    std::size_t offset = 0;      ///< where it starts in the text
   };
   std::vector<Node> nodes;
   std::vector<Rational> numbers;
@@ -28,7 +29,7 @@ struct SyntaxTree {
   std::vector<Operator> comparisons;
 };
 
-/// @throws SpecError if the text is no expression of the grammar
-[[nodiscard]] SyntaxTree parse(const Place& place);
+/// @throws SpecError if the text is no expression of the grammar with these tables
+[[nodiscard]] SyntaxTree parse(const Place& place, const TableLookup& tables);
 
 }  // namespace coordreq

@@ -24,6 +24,24 @@ std::string reason_at(const Program::Node& node, const Evaluator<Interval>& valu
   return fmt::format(fmt::runtime(function.undefined), a, range_text(values.at(node.b)));
 }
 
+bool is_zero(const Program& program, std::uint32_t i) {
+  return program.nodes[i].op == Operator::constant && program.constants[program.nodes[i].a] == 0;
+}
+
+/// `if(first <= x and x <= last, x, 0/0)`: x is the argument of a table that refuses others.
+bool is_argument_of_table(const Program& program, const Program::Node& node) {
+  if (node.op != Operator::if_else || program.nodes[node.a].op != Operator::logical_and) return false;
+  const Program::Node& nothing = program.nodes[node.c];
+  return nothing.op == Operator::divide && is_zero(program, nothing.a) && is_zero(program, nothing.b);
+}
+
+std::string reason_of_table(const Program& program, const Program::Node& node,
+                            const Evaluator<Interval>& values) {
+  const Program::Node& inside = program.nodes[node.a];
+  return fmt::format("a table from {} to {} at {}", range_text(values.at(program.nodes[inside.a].a)),
+                     range_text(values.at(program.nodes[inside.b].b)), range_text(values.at(node.b)));
+}
+
 /// Operands that can be the reason why the result of a node is undefined, last first.
 std::vector<std::uint32_t> operands(const Program::Node& node, const Evaluator<Interval>& values) {
   if (node.op == Operator::if_else) {
@@ -53,6 +71,8 @@ std::string undefined_reason(const Program& program, std::span<const Interval> s
   while (!pending.empty()) {
     const Program::Node& node = program.nodes[pending.back()];
     pending.pop_back();
+    if (is_argument_of_table(program, node) && values.at(node.b).total)
+      return reason_of_table(program, node, values);
     bool descends = false;
     for (const std::uint32_t operand : operands(node, values)) {
       const bool condition = is_condition(program.nodes[operand].op);

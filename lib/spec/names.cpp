@@ -88,8 +88,8 @@ bool asks_for(const Node& root, const Dataset& dataset) {
 }  // namespace
 
 std::string_view kind_in_words(NameKind kind) {
-  constexpr std::array<std::string_view, 6> kWords{"state",    "input",      "disturbance",
-                                                   "constant", "definition", "memory"};
+  constexpr std::array<std::string_view, 7> kWords{"state",      "input",  "disturbance", "constant",
+                                                   "definition", "memory", "table"};
   return kWords[static_cast<std::size_t>(kind)];
 }
 

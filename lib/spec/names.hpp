@@ -15,7 +15,7 @@
 namespace coordreq {
 
 /// The kind of a name in an expression.
-enum class NameKind : std::uint8_t { state, input, disturbance, constant, definition, memory };
+enum class NameKind : std::uint8_t { state, input, disturbance, constant, definition, memory, table };
 
 /// "state", "input", ...
 [[nodiscard]] std::string_view kind_in_words(NameKind kind);

@@ -133,11 +133,11 @@ MemoryReader::MemoryReader(const JsonDocument::Node& root) {
   errors.raise();
 }
 
-std::vector<std::string> MemoryReader::mentioned(const std::string& name) const {
+std::vector<std::string> MemoryReader::mentioned(const std::string& name, const TableLookup& tables) const {
   const Formula& formula = formulas_.at(name);
   std::vector<std::string> names;
   const auto add = [&](const FormulaPart& part) {
-    for (std::string& mention : mentioned_names(part.text, formula.pointer)) {
+    for (std::string& mention : mentioned_names(part.text, tables, formula.pointer)) {
       if (part.call(mention) == nullptr) names.push_back(std::move(mention));
     }
   };
@@ -172,39 +172,41 @@ void MemoryReader::settle() {
   }
 }
 
-Program MemoryReader::linked(const std::string& name, const Lookup& find) {
+Program MemoryReader::linked(const std::string& name, const Lookup& find, const TableLookup& tables) {
   if (phase_ == Phase::names) {
     TapeBuilder tape;
     return tape.extract(tape.apply(Operator::literal_true));
   }
   Formula& formula = formulas_.at(name);
-  for (std::size_t i = formula.calls.size(); i-- > 0;) link_call(formula, i, find);  // inner ones first
-  formula.truth = link_part(formula, formula.parts.whole, ExpectedType::condition, find);
+  for (std::size_t i = formula.calls.size(); i-- > 0;)
+    link_call(formula, i, find, tables);  // inner ones first
+  formula.truth = link_part(formula, formula.parts.whole, ExpectedType::condition, find, tables);
   formula.truth.text = formula.text;
   return formula.truth;
 }
 
 Program MemoryReader::link_part(Formula& formula, const FormulaPart& part, ExpectedType expected,
-                                const Lookup& find) {
+                                const Lookup& find, const TableLookup& tables) {
   const Lookup lookup = [&](std::string_view name) -> Binding {
     const std::size_t* const call = part.call(name);
     if (call == nullptr) return find(name);
     const Call& own = formula.calls[*call];
     return std::make_shared<const Program>(truth_of(own.past, own.always));
   };
-  return link(part.text, lookup, expected, formula.pointer);
+  return link(part.text, lookup, tables, expected, formula.pointer);
 }
 
-void MemoryReader::link_call(Formula& formula, std::size_t number, const Lookup& find) {
+void MemoryReader::link_call(Formula& formula, std::size_t number, const Lookup& find,
+                             const TableLookup& tables) {
   Call& call = formula.calls[number];
   const std::vector<FormulaPart>& arguments = formula.parts.calls[number].arguments;
-  if (call.past.is_counted()) call.past.samples = read_samples(formula, arguments.front(), find);
+  if (call.past.is_counted()) call.past.samples = read_samples(formula, arguments.front(), find, tables);
   const FormulaPart& first = call.past.is_counted() ? arguments.back() : arguments.front();
-  call.past.first = link_part(formula, first, ExpectedType::condition, find);
+  call.past.first = link_part(formula, first, ExpectedType::condition, find, tables);
   if (call.always) call.past.first = negated(call.past.first);
   call.past.second = call.past.first;
   if (call.past.kind == Kind::since)
-    call.past.second = link_part(formula, arguments.back(), ExpectedType::condition, find);
+    call.past.second = link_part(formula, arguments.back(), ExpectedType::condition, find, tables);
   if (phase_ != Phase::provisional) return;
   call.past.three_valued = can_be_undecided(call.past.first) ||
                            (call.past.kind == Kind::since && can_be_undecided(call.past.second));
@@ -212,9 +214,10 @@ void MemoryReader::link_call(Formula& formula, std::size_t number, const Lookup&
   for (std::size_t k = 0; k < call.kept(); ++k) values_[next_slot_++] = call.past.values();
 }
 
-std::int64_t MemoryReader::read_samples(Formula& formula, const FormulaPart& part, const Lookup& find) {
+std::int64_t MemoryReader::read_samples(Formula& formula, const FormulaPart& part, const Lookup& find,
+                                        const TableLookup& tables) {
   constexpr long kMost = (1L << 31U) - 2;
-  const Program program = link_part(formula, part, ExpectedType::number, find);
+  const Program program = link_part(formula, part, ExpectedType::number, find, tables);
   const bool is_constant = program.variables().empty();
   const Rational value = is_constant ? constant_value(program, formula.pointer) : Rational(0);
   if (is_constant && is_integer(value) && value >= 1 && value <= kMost) return floor_to_int(value);

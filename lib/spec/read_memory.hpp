@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "expression/table_function.hpp"
 #include "spec/json_document.hpp"
 #include "spec/memory_formula.hpp"
 #include "spec/system_spec.hpp"
@@ -26,7 +27,7 @@ class MemoryReader {
   /// In the order of the spec.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   /// The names that a formula mentions.
-  [[nodiscard]] std::vector<std::string> mentioned(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> mentioned(const std::string& name, const TableLookup& tables) const;
 
   /// From now on names stand for provisional numbers of variables.
   void look_at(const std::vector<StateSpec>& states, Membership asked);
@@ -37,7 +38,7 @@ class MemoryReader {
   /// The condition that the name of a memory stands for; before look_at() a placeholder.
   /// @param find finds the meaning of other names; throws for those that are not for formulas
   /// @pre unchecked: what the formula mentions has been linked before.
-  [[nodiscard]] Program linked(const std::string& name, const Lookup& find);
+  [[nodiscard]] Program linked(const std::string& name, const Lookup& find, const TableLookup& tables);
 
   /// The names of the states that keep it; none until settle().
   [[nodiscard]] std::vector<std::string> kept_by(const std::string& name) const;
@@ -63,11 +64,12 @@ class MemoryReader {
   };
 
   [[nodiscard]] Program link_part(Formula& formula, const FormulaPart& part, ExpectedType expected,
-                                  const Lookup& find);
+                                  const Lookup& find, const TableLookup& tables);
   /// This is the phase, and all formulas have been linked.
   [[nodiscard]] bool are_linked(Phase phase) const;
-  void link_call(Formula& formula, std::size_t number, const Lookup& find);
-  [[nodiscard]] std::int64_t read_samples(Formula& formula, const FormulaPart& part, const Lookup& find);
+  void link_call(Formula& formula, std::size_t number, const Lookup& find, const TableLookup& tables);
+  [[nodiscard]] std::int64_t read_samples(Formula& formula, const FormulaPart& part, const Lookup& find,
+                                          const TableLookup& tables);
   [[nodiscard]] bool can_be_undecided(const Program& condition) const;
 
   std::vector<std::string> names_;

@@ -28,7 +28,7 @@ struct SpecSource {
 /// @throws IoError if it is not there, is a folder or a device, or cannot be read.
 [[nodiscard]] SpecSource read_spec_source(const std::string& path, std::istream& standard_input);
 
-/// read_spec() of its text. @throws SpecError as above.
+/// read_spec() of its text, with the values of tables that stand in files. @throws SpecError as above.
 [[nodiscard]] ProblemSpec read_spec(SpecSource source);
 
 /// Both: @throws IoError, SpecError as above.

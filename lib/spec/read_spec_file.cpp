@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "spec/read_spec.hpp"
+#include "spec/read_tables.hpp"
 
 namespace coordreq {
 namespace {
@@ -85,7 +86,7 @@ SpecSource read_spec_source(const std::string& path, std::istream& standard_inpu
 }
 
 ProblemSpec read_spec(SpecSource source) {
-  ProblemSpec spec = read_spec(std::move(source.text), source.name);
+  ProblemSpec spec = read_spec(with_table_files(source), source.name);
   spec.folder = std::move(source.folder);
   return spec;
 }

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "expression/tape_builder.hpp"
 #include "spec/dependency_order.hpp"
+#include "spec/read_tables.hpp"
 #include "spec/same_letters.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
@@ -91,6 +92,7 @@ Scope::Scope(const Node& root, MemoryReader& memory) : names_(dataset_names(root
   if (root["dynamics"].has("unit")) time_unit_ = root["dynamics"]["unit"].text();
   centres_ = read_abstraction(root).safe == Membership::center;
   if (root.has("constants")) evaluate_constants(root["constants"]);
+  if (root.has("tables")) read_tables(root["tables"]);
   definitions_ = Definitions(static_cast<std::uint32_t>(slot_names_.size()));
   link_definitions(root, memory);
 }
@@ -118,6 +120,7 @@ void Scope::add_names(const Node& root, const MemoryReader& memory) {
   };
   add_keys("constants", NameKind::constant);
   add_keys("definitions", NameKind::definition);
+  add_keys("tables", NameKind::table);
   errors.raise();
 }
 
@@ -135,10 +138,34 @@ void Scope::evaluate_constants(const Node& constants) {
   graph.add_members(constants);
   graph.find_mentions([&](const std::string& name) {
     const Node node = constants[name];
-    return node.is_text() ? mentioned_names(node.text(), node.pointer()) : std::vector<std::string>();
+    return node.is_text() ? mentioned_in(node) : std::vector<std::string>();
   });
   add_in_order(graph, graph.order("constants"),
                [&](const std::string& name) { constants_[name] = number(constants[name]); });
+}
+
+void Scope::read_tables(const Node& tables) {
+  ErrorList errors;
+  std::map<std::string, TableFunction, std::less<>> found;
+  for (const std::string& name : tables.keys()) {
+    errors.attempt(
+        [&] { found[name] = read_table(tables[name], [&](const Node& node) { return number(node); }); });
+  }
+  errors.raise();
+  tables_ = std::move(found);
+}
+
+TableLookup Scope::tables_for(const std::string& pointer) const {
+  return [this, pointer](std::string_view name) -> const TableFunction* {
+    const auto table = tables_.find(name);
+    if (table != tables_.end()) return &table->second;
+    if (names_.find(std::string(name)) != NameKind::table) return nullptr;
+    throw SpecError(fmt::format("expected constants only, found the table {}", quote_text(name)), pointer);
+  };
+}
+
+std::vector<std::string> Scope::mentioned_in(const Node& expression) const {
+  return mentioned_names(expression.text(), tables_for(expression.pointer()), expression.pointer());
 }
 
 /// Definitions and memories may mention each other.
@@ -148,9 +175,8 @@ void Scope::link_definitions(const Node& root, MemoryReader& memory) {
   for (const std::string& name : memory.names()) graph.add(name, root["memory"][name].pointer());
   const auto is_memory = [&](const std::string& name) { return names_.find(name) == NameKind::memory; };
   graph.find_mentions([&](const std::string& name) {
-    if (is_memory(name)) return memory.mentioned(name);
-    const Node node = root["definitions"][name];
-    return mentioned_names(node.text(), node.pointer());
+    if (is_memory(name)) return memory.mentioned(name, tables_for(root["memory"][name].pointer()));
+    return mentioned_in(root["definitions"][name]);
   });
   const std::string kind = memory.names().empty() ? "definitions" : "definitions and memories";
   add_in_order(graph, graph.order(kind), [&](const std::string& name) {
@@ -163,7 +189,7 @@ void Scope::link_definitions(const Node& root, MemoryReader& memory) {
     const auto find = [&](std::string_view mention) {
       return find_for_memory(mention, graph.pointers[place]);
     };
-    Program truth = memory.linked(name, find);
+    Program truth = memory.linked(name, find, tables_for(graph.pointers[place]));
     for (Program::Node& node : truth.nodes) {
       if (node.op == Operator::variable && node.a < is_box_.size() && is_box_[node.a]) node.a += kSeenCell;
     }
@@ -252,7 +278,7 @@ Rational Scope::constant_expression(const Node& node) const {
         fmt::format("expected a number, found {}: units are separate, in \"unit\"", quote_text(node.text())),
         node.pointer());
   }
-  for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
+  for (const std::string& name : mentioned_in(node)) {
     const std::optional<NameKind> kind = names_.find(name);
     if (kind && *kind != NameKind::constant) {
       throw SpecError(
@@ -278,7 +304,7 @@ Program Scope::expression(const Node& node, ExpectedType expected, Over over) co
 /// memories follow from these.
 void Scope::refuse_memories(const Node& node) const {
   if (memories_in_.empty()) return;
-  for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
+  for (const std::string& name : mentioned_in(node)) {
     const auto found = memories_in_.find(name);
     if (found == memories_in_.end()) continue;
     const std::string& memory = *found->second.begin();
@@ -315,7 +341,7 @@ Program Scope::link_text(const Node& node, ExpectedType expected) const {
     }
     return binding;
   };
-  return link(node.text(), lookup, expected, node.pointer());
+  return link(node.text(), lookup, tables_for(node.pointer()), expected, node.pointer());
 }
 
 void Scope::check_dependence(const Program& program, Over over, const std::string& pointer) const {

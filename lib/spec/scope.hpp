@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "expression/program.hpp"
+#include "expression/table_function.hpp"
 #include "numeric/rational.hpp"
 #include "spec/definitions.hpp"
 #include "spec/json_document.hpp"
@@ -23,7 +24,7 @@ enum class Over : std::uint8_t { states, states_and_inputs, everything };
 /// Everything that expressions of one spec can name, and the way to read numbers and expressions with it.
 class Scope {
  public:
-  /// Registers all names, evaluates the constants, links the definitions and the memories.
+  /// Registers all names, evaluates the constants, reads the tables, links the definitions and the memories.
   /// @param memory of the same document
   /// @pre unchecked: the document follows the schema.
   /// @throws SpecError for names that clash, cycles, and anything wrong in a constant, definition or memory
@@ -50,6 +51,7 @@ class Scope {
   void add_names(const JsonDocument::Node& root, const MemoryReader& memory);
   void add_variables(const JsonDocument::Node& root, const std::string& list, NameKind kind);
   void evaluate_constants(const JsonDocument::Node& constants);
+  void read_tables(const JsonDocument::Node& tables);
   void link_definitions(const JsonDocument::Node& root, MemoryReader& memory);
   void note_memories(const std::string& name, const std::vector<std::string>& mentioned);
   void refuse_memories(const JsonDocument::Node& node) const;
@@ -58,6 +60,9 @@ class Scope {
   [[nodiscard]] Rational constant_expression(const JsonDocument::Node& node) const;
   [[nodiscard]] Program link_text(const JsonDocument::Node& node, ExpectedType expected) const;
   [[nodiscard]] Binding find(std::string_view name) const;
+  /// The tables that an expression at `pointer` can call.
+  [[nodiscard]] TableLookup tables_for(const std::string& pointer) const;
+  [[nodiscard]] std::vector<std::string> mentioned_in(const JsonDocument::Node& expression) const;
 
   [[nodiscard]] Program seen_as(const Program& program, std::uint32_t first) const;
 
@@ -72,6 +77,7 @@ class Scope {
   /// Over slots of their own for states that are not discrete, until it is known who asks.
   std::map<std::string, std::shared_ptr<const Program>, std::less<>> memories_;
   std::map<std::string, std::set<std::string>> memories_in_;  ///< the memories that a name is or rests on
+  std::map<std::string, TableFunction, std::less<>> tables_;
   Definitions definitions_;
 };
 

@@ -94,10 +94,12 @@ class PlaceFinder {
     place_.push_back(steps[i]);
   }
 
-  /// Refuses to add a constant or a definition, since nothing would refer to it.
+  /// Refuses to add a constant, a definition or a table, since nothing would refer to it.
   void check_may_add(const std::vector<std::string>& steps, std::size_t missing) const {
     if (missing == 0) check_is_key(steps);
-    if (missing > 1 || steps.size() < 2 || (steps[0] != "constants" && steps[0] != "definitions")) return;
+    if (missing > 1 || steps.size() < 2 ||
+        (steps[0] != "constants" && steps[0] != "definitions" && steps[0] != "tables"))
+      return;
     std::vector<std::string> known;
     if (missing == 1) {
       for (const auto& [key, value] : at_->items()) known.push_back(key);
@@ -111,7 +113,8 @@ class PlaceFinder {
   /// Refuses a name at the top level that is no key there, but the name of something in the spec.
   void check_is_key(const std::vector<std::string>& steps) const {
     if (parse_json(spec_schema()).at("properties").contains(steps[0])) return;
-    for (const char* key : {"constants", "definitions", "states", "inputs", "disturbances", "agents"}) {
+    for (const char* key :
+         {"constants", "definitions", "tables", "states", "inputs", "disturbances", "agents"}) {
       const auto found = at_->find(key);
       if (found == at_->end() || !has_name(*found, steps[0])) continue;
       fail(fmt::format("no key {} in the spec, did you mean {}?", quote_text(steps[0]),

@@ -24,8 +24,8 @@ struct SpecSetting {
 
 /// The text of a spec with the value at the path replaced, without its comments. A number that a double
 /// cannot hold becomes a text. A key that is not there is added, with the objects on the way to it; whether
-/// there may be such a key is for read_spec() to say. Constants and definitions are not added: nothing would
-/// refer to them.
+/// there may be such a key is for read_spec() to say. Constants, definitions and tables are not added:
+/// nothing would refer to them.
 /// @param source the file name for messages
 /// @throws SpecError if `text` or a value in JSON is none, or nested too deep; UsageError with the path as
 ///   the place if the path leads nowhere, the value starts like JSON and is none, or one of them is not UTF-8
