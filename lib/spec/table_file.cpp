@@ -69,7 +69,7 @@ class TableFile {
     std::istringstream text(read());
     for (std::string line; std::getline(text, line);) {
       ++line_;
-      if (line_ == 1) line = without_byte_order_mark(line);
+      if (line_ == 1) line = std::string(without_byte_order_mark(line));
       if (trimmed(line).empty() || line.front() == '#') continue;
       if (columns_.empty()) {
         columns_ = cells_of(line);
