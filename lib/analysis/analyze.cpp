@@ -156,11 +156,13 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   Json summary = summarise(answers, work);
   meter.tell(work);
   const std::optional<Tightness> tightness = find_tightness(answers.context);
-  if (tightness) work["helpers"]["tightness"] = {{"posts", tightness->posts.size()}};
+  if (tightness) {
+    work["helpers"]["tightness"] = {{"posts", tightness->posts.size()}, {"left_out", tightness->left_out}};
+  }
   summary["tightness"] = tightness_json(tightness);
-  const std::vector<StateMotion> motion = sample_motion(model.spec());
-  summary["motion"] = motion_json(model.spec(), motion);
-  work["helpers"]["motion"] = {{"solutions", count_of_samples(model.spec())}};
+  const Motion motion = sample_motion(model.spec());
+  summary["motion"] = motion_json(model.spec(), motion.states);
+  work["helpers"]["motion"] = {{"solutions", motion.solutions}, {"left_out", motion.left_out}};
   if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
   summary["output"] = options.output.empty() ? Json() : Json(options.output);
@@ -169,7 +171,7 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   for (const auto& [stage, seconds] : reporter.finish()) summary["seconds"][stage] = seconds;
   const auto peak = static_cast<std::int64_t>(peak_memory_bytes());
   summary["peak_memory_bytes"] = ranks == nullptr ? peak : ranks->greatest(peak);
-  Warnings warnings = is_first ? advise(answers, motion, team, work) : Warnings();
+  Warnings warnings = is_first ? advise(answers, motion.states, team, work) : Warnings();
   if (is_first) {
     for (Warning& more : advise_on_tightness(model.spec(), tightness)) warnings.push_back(std::move(more));
   }

@@ -10,6 +10,7 @@
 #include "analysis/coarse_copy.hpp"
 #include "answers/answers.hpp"
 #include "answers/plan.hpp"
+#include "reach/enclosure_sample.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -23,6 +24,11 @@ constexpr std::int64_t kGrowth = 4;
 constexpr double kLongEnough = 0.3, kShortEnough = 0.5;
 /// One that takes longer is given up.
 constexpr double kPatience = 2;
+/// Boxes that are enclosed to see what all of them take: no fewer, and more within this time.
+constexpr std::int64_t kFewBoxes = 12, kManyBoxes = 200;
+constexpr double kBoxSeconds = 1;
+/// An entry of a table beside them, in seconds, about.
+constexpr double kOfExactEntry = 5e-7;
 /// By which powers of the number of cells work grows: equal work is done once, so that it may be few.
 constexpr double kLeastPower = 0.3, kMostPower = 1.1;
 
@@ -99,6 +105,23 @@ Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
   return result;
 }
 
+/// Seconds that one thread takes for tables of which posts are enclosures; nothing if there are none.
+std::optional<double> measured_enclosures(const Model& model) {
+  const std::vector<EnclosedGroup> groups = enclosed_groups(model.spec(), model.shapes());
+  if (groups.empty()) return std::nullopt;
+  double seconds = entries_of(model) * kOfExactEntry;
+  for (const EnclosedGroup& group : groups) {
+    EnclosureSample sample(model.spec(), group);
+    const double begin = processor_seconds();
+    const double most = kBoxSeconds / static_cast<double>(groups.size());
+    std::int64_t boxes = 0;
+    for (; boxes < kFewBoxes || (boxes < kManyBoxes && processor_seconds() - begin < most); ++boxes)
+      sample.enclose_next();
+    seconds += (processor_seconds() - begin) / static_cast<double>(boxes) * group.choices;
+  }
+  return seconds;
+}
+
 /// The problem with steps `factor` times as long; 1: as it is.
 ProblemSpec coarser(const ProblemSpec& spec, std::int64_t factor) {
   constexpr std::int64_t kFewPoints = 4;
@@ -121,7 +144,9 @@ std::optional<ProblemSpec> copy_within(const ProblemSpec& spec, double most_cell
   return std::nullopt;
 }
 
-double extrapolated(const Model& model, const std::vector<Measured>& copies) {
+/// @param enclosures seconds of tables, if a sample of them has been measured
+double extrapolated(const Model& model, const std::vector<Measured>& copies,
+                    std::optional<double> enclosures) {
   const Measured& last = copies.back();
   const double cells = cells_of(model.spec());
   double power = 1;
@@ -130,7 +155,7 @@ double extrapolated(const Model& model, const std::vector<Measured>& copies) {
     power = std::log(std::max(last.rest, 1e-6) / std::max(before.rest, 1e-6)) /
             std::log(last.cells / before.cells);
   }
-  return last.tables * entries_of(model) / last.entries +
+  return enclosures.value_or(last.tables * entries_of(model) / last.entries) +
          last.rest * std::pow(cells / last.cells, std::clamp(power, kLeastPower, kMostPower));
 }
 
@@ -138,6 +163,8 @@ std::optional<double> estimated(const Model& model, ThreadTeam& team) {
   const ProblemSpec& spec = model.spec();
   const double cells = cells_of(spec);
   std::vector<Measured> copies;
+  std::optional<double> enclosures = measured_enclosures(model);
+  if (enclosures) *enclosures /= team.size();
   for (auto most = static_cast<double>(kFirstCells);; most *= kGrowth) {
     const std::optional<ProblemSpec> copy = copy_within(spec, most);
     if (copy && (copies.empty() || cells_of(*copy) > copies.back().cells))
@@ -149,12 +176,12 @@ std::optional<double> estimated(const Model& model, ThreadTeam& team) {
     const Measured& last = copies.back();
     if (last.is_given_up) {
       if (copies.size() > 1) copies.pop_back();
-      const double seconds = extrapolated(model, copies);
+      const double seconds = extrapolated(model, copies, enclosures);
       return seconds > 0 ? std::optional(seconds) : std::nullopt;
     }
     if (last.cells == cells) return last.all();
     const bool is_last = last.all() > (last.cells * kGrowth >= cells ? kShortEnough : kLongEnough);
-    if ((is_last && copies.size() > 1) || most > cells) return extrapolated(model, copies);
+    if ((is_last && copies.size() > 1) || most > cells) return extrapolated(model, copies, enclosures);
   }
 }
 

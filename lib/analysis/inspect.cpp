@@ -83,7 +83,7 @@ SpecReport inspect(const Model& model, int threads) {
   ThreadTeam team(threads);
   check_discrete_states(spec, shapes, team);
   report.guarantee = guarantee_of(spec);
-  report.motion = sample_motion(spec);
+  report.motion = sample_motion(spec).states;
   report.memory_bytes = to_bytes(estimate_memory(model, threads));
   return report;
 }

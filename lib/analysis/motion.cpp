@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kMostCorners = 128;
 constexpr std::size_t kBetween = 16;
 constexpr double kMotionTolerance = 1e-9;
+/// Sub-steps of all solutions: some hundred each, some thousand where they are stiff.
+constexpr std::int64_t kMostTried = 1'000'000;
 
 /// Ends of what each slot can be.
 struct Ends {
@@ -106,6 +108,9 @@ class Ways {
     flow_.emplace(spec, all, kMotionTolerance, PointFlow::kFewSteps);
   }
 
+  /// Whether so much was done that no more solutions are followed.
+  [[nodiscard]] bool are_over() const { return flow_ && flow_->tried() > kMostTried; }
+
   std::optional<std::vector<double>> end(const std::vector<double>& slots) {
     if (flow_) return flow_->after_period(slots);
     std::vector<double> result;
@@ -144,14 +149,17 @@ double six_digits(double value) {
 
 }  // namespace
 
-std::vector<StateMotion> sample_motion(const SystemSpec& spec) {
+Motion sample_motion(const SystemSpec& spec) {
   Starts starts(spec);
   Ways ways(spec);
   Jumps jumps(spec);
-  std::vector<StateMotion> all(spec.states.size());
+  Motion result;
+  std::vector<StateMotion>& all = result.states;
+  all.resize(spec.states.size());
   for (std::size_t k = 0; k < starts.count(); ++k) {
     const std::vector<double> begin = starts.next();
-    const auto end = ways.end(begin);
+    ++(ways.are_over() ? result.left_out : result.solutions);
+    const auto end = ways.are_over() ? std::nullopt : ways.end(begin);
     const auto add = [&](std::size_t i, double next) {
       const double moved = std::fabs(next - begin[i]);
       if (std::isfinite(moved)) all[i].amount = std::max(all[i].amount, moved);
@@ -165,11 +173,7 @@ std::vector<StateMotion> sample_motion(const SystemSpec& spec) {
     all[i].cells = all[i].amount / nearest_double(spec.states[i].grid.step);
     all[i].share = all[i].cells / static_cast<double>(spec.states[i].grid.count);
   }
-  return all;
-}
-
-std::size_t count_of_samples(const SystemSpec& spec) {
-  return Starts(spec).count();
+  return result;
 }
 
 Json motion_json(const SystemSpec& spec, const std::vector<StateMotion>& motion) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/json.hpp"
@@ -14,14 +15,19 @@ struct StateMotion {
   double share = 0;   ///< of its domain; 1 is all of it
 };
 
+/// What a sample shows.
+struct Motion {
+  std::vector<StateMotion> states;  ///< of the spec
+  std::int64_t solutions = 0;       ///< that were followed
+  std::int64_t left_out = 0;        ///< that were not, since those before took very many sub-steps
+};
+
 /// max over x, u and w of |x_i(tau) - x_i(0)|, before the rules for leaving the domain, for each state of the
 /// spec; of one with an update, how far it jumps; 0 for one that a memory keeps. Tried at corners of the
 /// domain with the ends of all inputs and disturbances, all corners if they are few, and at points between: a
 /// fixed number of solutions, followed without a guarantee, so the greatest may be larger. Where a solution
 /// is undefined it is passed over.
-[[nodiscard]] std::vector<StateMotion> sample_motion(const SystemSpec& spec);
-/// Solutions that sample_motion() follows.
-[[nodiscard]] std::size_t count_of_samples(const SystemSpec& spec);
+[[nodiscard]] Motion sample_motion(const SystemSpec& spec);
 
 /// A list of `state`, `amount`, `cells` and `share`, to six digits.
 [[nodiscard]] Json motion_json(const SystemSpec& spec, const std::vector<StateMotion>& motion);

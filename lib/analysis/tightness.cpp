@@ -234,7 +234,10 @@ std::optional<Tightness> find_tightness(const AnalysisContext& context) {
   if (context.ranks != nullptr && context.share) context.ranks->add(excess);
   Tightness result;
   for (std::size_t p = 0; p < posts.size(); ++p) {
-    if (excess[p] == 0) continue;
+    if (excess[p] == 0) {
+      ++result.left_out;
+      continue;
+    }
     posts[p].excess = excess[p] - 1;
     result.posts.push_back(std::move(posts[p]));
   }

@@ -23,6 +23,7 @@ struct Tightness {
     std::int64_t excess = 0;         ///< cells
   };
   std::vector<Post> posts;
+  std::int64_t left_out = 0;  ///< posts of the sample that have no bound, or whose solutions are not known
 
   [[nodiscard]] double mean() const;
   /// The excess that 99 of 100 posts do not exceed.

@@ -77,6 +77,7 @@ std::int64_t BoxDivision::parts_worth() const {
 
 void BoxDivision::add(std::vector<Interval> box, const FlowEnclosure& found, int depth) {
   work_ += kUsualSteps;
+  ++enclosed_;
   parts_.push_back({std::move(box), found, depth});
   if (found.reached.empty()) return;
   if (reached_.empty()) reached_ = found.reached;

@@ -62,6 +62,8 @@ class BoxDivision {
   bool refine(const Enclose& enclose);
 
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  /// How many were enclosed, of all boxes so far.
+  [[nodiscard]] std::int64_t enclosed() const { return enclosed_; }
   /// The hull of what all of them have reached.
   [[nodiscard]] const std::vector<Interval>& reached() const { return reached_; }
 
@@ -83,7 +85,8 @@ class BoxDivision {
 
   std::vector<Part> parts_;
   std::vector<Interval> reached_;
-  std::int64_t work_ = 0;       ///< of the parts that have been enclosed, in sub-steps along a solution
+  std::int64_t work_ = 0;  ///< of the parts that have been enclosed, in sub-steps along a solution
+  std::int64_t enclosed_ = 0;
   std::vector<bool> given_up_;  ///< lower and upper end of every target
   std::size_t next_check_ = 0;  ///< number of parts at which it is asked whether it still pays
   double missed_ = 0.0;         ///< at the last check

@@ -254,6 +254,7 @@ std::optional<std::vector<double>> PointFlow::after_period(std::span<const doubl
   double left = period_;
   for (double h = period_; left > 0.0;) {
     const bool found = advance(left, h);
+    ++tried_;
     followed_ = 1.0 - left / period_;
     if ((!found && is_stiff_) || steps_ > most_) return std::nullopt;
     if (!is_stiff_ && (!found || stiff_steps_ > kStiffSteps)) begin_stiffly();

@@ -49,6 +49,8 @@ class PointFlow {
   [[nodiscard]] std::optional<std::vector<double>> after_period(std::span<const double> slots);
   /// The share of the period up to which the last solution was followed; 1 if that was all of it.
   [[nodiscard]] double followed() const { return followed_; }
+  /// Sub-steps that were tried for all solutions so far.
+  [[nodiscard]] std::int64_t tried() const { return tried_; }
 
  private:
   using Values = DormandPrince::Values;
@@ -95,6 +97,7 @@ class PointFlow {
   int stiff_steps_ = 0;  ///< those that stability bounds
   int short_events_ = 0;
   double followed_ = 1.0;
+  std::int64_t tried_ = 0;
 };
 
 }  // namespace coordreq

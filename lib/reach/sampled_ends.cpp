@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kCornerDimensions = 6;
 /// Against the step of the grid; nobody sees more.
 constexpr double kSampleTolerance = 1e-6;
+/// Sub-steps of the solutions from one box: those of a stiff system take a thousand each.
+constexpr std::int64_t kMostTried = 2 * PointFlow::kFewSteps;
 
 }  // namespace
 
@@ -38,7 +40,9 @@ bool SampledEnds::add(std::size_t state, std::optional<Interval>& all) {
   } else {
     const std::vector<std::int32_t>& moving = dependencies_[state].moving;
     const auto own = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state));
-    const auto ends = flow_of(state).after_period(slots_);
+    PointFlow& flow = flow_of(state);
+    if (flow.tried() > most_tried_) return false;
+    const auto ends = flow.after_period(slots_);
     if (!ends) return false;
     end = (*ends)[static_cast<std::size_t>(own - moving.begin())];
   }
@@ -54,6 +58,7 @@ std::optional<Interval> SampledEnds::next(std::size_t state, std::span<const Int
   for (const std::int32_t j : dependencies_[state].moving) {
     if (!slots[spec_->state_slot(at(j))].is_point()) wide.push_back(spec_->state_slot(at(j)));
   }
+  if (spec_->dynamics.time == Time::continuous) most_tried_ = flow_of(state).tried() + kMostTried;
   const std::vector<std::int32_t>& disturbances = dependencies_[state].disturbances;
   std::optional<Interval> all;
   for (int side = disturbances.empty() ? 1 : 0; side <= (disturbances.empty() ? 1 : 2); ++side) {

@@ -24,7 +24,7 @@ class SampledEnds {
   explicit SampledEnds(const SystemSpec& spec);
 
   /// Hull of the next values of a state, before the rules of the sample; nothing if it has an update, or if
-  /// some are not known.
+  /// some are not known, or solutions take very many sub-steps together.
   /// @param slots boxes of all states, and inputs; what is not a point of them is sampled
   [[nodiscard]] std::optional<Interval> next(std::size_t state, std::span<const Interval> slots);
 
@@ -36,6 +36,7 @@ class SampledEnds {
   std::vector<Dependencies> dependencies_;
   std::vector<std::unique_ptr<PointFlow>> flows_;  ///< one a state, made when needed
   std::vector<double> slots_;
+  std::int64_t most_tried_ = 0;  ///< sub-steps of the flow that is asked, from its beginning
 };
 
 }  // namespace coordreq

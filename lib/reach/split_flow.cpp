@@ -33,6 +33,7 @@ SplitFlow::SplitFlow(PeriodicFlow flow, const FlowSystem& system, std::vector<En
 }
 
 const FlowEnclosure& SplitFlow::flow(std::span<const Interval> slots) {
+  ++wholes_;
   const FlowEnclosure& whole = flow_.flow(slots);
   if (division_.effort() <= 0 || !division_.is_loose(whole, kLooseFlow)) return whole;
   is_far_ = division_.is_loose(whole, kFarFlow);

@@ -31,6 +31,8 @@ class SplitFlow {
 
   /// @pre unchecked: as PeriodicFlow::flow(). @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
+  /// Boxes and parts of boxes that were enclosed so far.
+  [[nodiscard]] std::int64_t parts() const { return wholes_ + division_.enclosed(); }
 
  private:
   [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> box);
@@ -46,7 +48,8 @@ class SplitFlow {
   std::vector<std::uint32_t> state_slots_;
   BoxDivision division_;
   std::optional<SolutionSpread> spread_;  ///< none if nothing tells which difference is small
-  bool is_far_ = false;                   ///< the whole meets far more cells than it need
+  std::int64_t wholes_ = 0;
+  bool is_far_ = false;  ///< the whole meets far more cells than it need
   std::vector<Interval> slots_;
   std::vector<Interval> box_;  ///< the whole one, of the states
   FlowEnclosure result_;

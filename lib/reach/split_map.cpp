@@ -22,6 +22,7 @@ SplitMap::SplitMap(const Program& equation, std::span<const std::uint32_t> box_s
 
 Interval SplitMap::enclose(std::span<const Interval> slots) {
   slots_.assign(slots.begin(), slots.end());
+  ++wholes_;
   enclose_slots();
   const Interval whole = found_.end.front();
   if (division_.effort() <= 0 || map_.directions().empty() || !division_.is_loose(found_, kLooseMap))

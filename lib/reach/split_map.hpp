@@ -25,6 +25,8 @@ class SplitMap {
 
   /// As MapEnclosure::enclose().
   [[nodiscard]] Interval enclose(std::span<const Interval> slots);
+  /// Boxes and parts of boxes that were enclosed so far.
+  [[nodiscard]] std::int64_t parts() const { return wholes_ + division_.enclosed(); }
 
  private:
   const FlowEnclosure& enclose_part(std::span<const Interval> box);
@@ -32,6 +34,7 @@ class SplitMap {
 
   MapEnclosure map_;
   BoxDivision division_;
+  std::int64_t wholes_ = 0;
   std::vector<Interval> slots_;
   FlowEnclosure found_;
 };

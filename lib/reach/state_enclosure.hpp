@@ -48,6 +48,9 @@ class StateEnclosure {
   /// @param state one of those of the constructor
   [[nodiscard]] Result result(std::size_t state) const;
 
+  /// Boxes and parts of boxes that were enclosed so far.
+  [[nodiscard]] std::int64_t parts() const { return map_ ? map_->parts() : flow_->parts(); }
+
   /// The reason why the equation at fault is undefined in the last enclose(); empty if not known. @pre it is
   [[nodiscard]] std::string reason(const Result& result) const;
 

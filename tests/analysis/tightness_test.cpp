@@ -54,6 +54,15 @@ TEST(Tightness, EffortBringsItDown) {
   EXPECT_FALSE(warns(summary));
 }
 
+TEST(Tightness, SaysHowManyPostsAreNotLookedAt) {
+  EXPECT_EQ(summary_of("u - x", "1", "0")["work"]["helpers"]["tightness"]["left_out"], 0);
+  // Each solution takes some thousand steps, all of a post too many.
+  const Json summary = summary_of("cos(1e5*x)", "0.5", "0");
+  const Json& work = summary["work"]["helpers"]["tightness"];
+  EXPECT_GT(work["left_out"], 0);
+  EXPECT_EQ(work["posts"], summary["tightness"]["posts"]);
+}
+
 TEST(Tightness, IsTheSameEveryTime) {
   EXPECT_EQ(summary_of("sin(3*x) + u", "0.7", "10")["tightness"],
             summary_of("sin(3*x) + u", "0.7", "10")["tightness"]);
