@@ -141,7 +141,8 @@ std::vector<Remedy> remedies(const ProblemSpec& spec) {
   return all;
 }
 
-/// The mean excess of the widest posts of the sample with a remedy; nothing if it cannot be told of one.
+/// The mean excess of the widest posts of the sample with a remedy; nothing if it cannot be told of one, or
+/// the first, which is the widest, gets no better: more effort in vain costs more than all the rest.
 std::optional<double> excess_with(const ProblemSpec& spec, const Remedy& remedy,
                                   std::span<const Tightness::Post> posts) {
   ProblemSpec copy = spec;
@@ -160,6 +161,7 @@ std::optional<double> excess_with(const ProblemSpec& spec, const Remedy& remedy,
       if (!excess) return std::nullopt;
       most = std::max(most, *excess);
     }
+    if (&post == posts.data() && most >= static_cast<double>(post.excess)) return std::nullopt;
     sum += most;
   }
   return sum / static_cast<double>(posts.size());
