@@ -19,20 +19,22 @@ inline constexpr double kWorkOfSecond = 5e7;
 }
 
 /// Work that is left for questions, of which each may take an equal share, but at most a twentieth of the
-/// whole. Not thread-safe: shares are taken between loops.
+/// whole. A part is kept back for answers that are begun when their share is spent. Not thread-safe: shares
+/// are taken between loops.
 class Budget {
  public:
   explicit Budget(Work all) : all_(all), left_(all) {}
 
-  [[nodiscard]] bool is_over() const { return left_ <= 0; }
+  [[nodiscard]] bool is_over() const { return to_share() <= 0; }
   [[nodiscard]] Work left() const { return std::max<Work>(left_, 0); }
   /// Work that one of `questions` questions may take; 0 once the budget is over.
   [[nodiscard]] Work share(std::int64_t questions) const {
-    return is_over() ? 0 : std::clamp<Work>(left_ / std::max<std::int64_t>(questions, 1), 1, most_of_one());
+    return is_over() ? 0
+                     : std::clamp<Work>(to_share() / std::max<std::int64_t>(questions, 1), 1, most_of_one());
   }
-  /// Work that a part of an answer may take once it is begun, so that no block of so many questions takes
-  /// more than an eighth of the whole beyond their shares.
-  [[nodiscard]] Work of_part(std::int64_t block) const { return all_ / (8 * block); }
+  /// Work that an answer may take beyond its share, so that a block of so many questions takes no more than
+  /// is kept back.
+  [[nodiscard]] Work of_begun(std::int64_t block) const { return kept_back() / block; }
   void spend(Work used) { left_ -= used; }
   [[nodiscard]] Work all() const { return all_; }
   [[nodiscard]] Work spent() const { return all_ - left_; }
@@ -52,6 +54,8 @@ class Budget {
 
  private:
   [[nodiscard]] Work most_of_one() const { return std::max<Work>(all_ / 20, 1); }
+  [[nodiscard]] Work kept_back() const { return all_ / 16; }
+  [[nodiscard]] Work to_share() const { return left_ - kept_back(); }
 
   Work all_;
   Work left_;

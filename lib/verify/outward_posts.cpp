@@ -97,10 +97,10 @@ class OutwardPosts {
   }
 
  private:
-  /// The work that may be done for a choice, and for a piece that is begun.
+  /// The work that may be done for a choice, and beyond that where something is begun.
   struct Share {
     Work most = 0;
-    Work of_piece = 0;
+    Work of_begun = 0;
   };
   /// A part of one of the boxes of a choice, which has open claims.
   struct Left {
@@ -137,7 +137,7 @@ class OutwardPosts {
     std::vector<std::uint8_t> still_open(open_.size());
     const auto count = static_cast<std::int64_t>(open_.size());
     const std::int64_t block = effort.most_boxes == 1 ? 1024 : 64;
-    const Work of_piece = budget.of_part(block);
+    const Work of_begun = budget.of_begun(block);
     std::size_t bytes = 0;
     std::int64_t looked_at = 0;
     const auto answered = [&](std::int64_t some) {
@@ -153,7 +153,7 @@ class OutwardPosts {
       if (!prover) prover = std::make_unique<PostProver>(spec_, grid_, group_);
       const Work before = prover->work();
       const auto place = static_cast<std::size_t>(i);
-      still_open[place] = settle(open_[place], effort, {most, of_piece}, *prover) ? 0 : 1;
+      still_open[place] = settle(open_[place], effort, {most, of_begun}, *prover) ? 0 : 1;
       return prover->work() - before;
     };
     answer_within(budget, count, block, team, answer, answered);
@@ -262,8 +262,10 @@ class OutwardPosts {
           if (one.box == box) parts.push_back(one.part);
         }
       }
-      const Work left = std::max<Work>(share.most - (prover.work() - begun), 0);
-      std::vector<PostProof> proofs = prover.prove(slots, claims, parts, effort, left, share.of_piece);
+      const Work used = prover.work() - begun;
+      const Work left = std::max<Work>(share.most - used, 0);
+      const Work beyond = std::clamp<Work>(share.most + share.of_begun - used, 0, share.of_begun);
+      std::vector<PostProof> proofs = prover.prove(slots, claims, parts, effort, left, beyond);
       for (OpenPart& part : parts) open.left->push_back({box, std::move(part)});
       bool all_wrong = true;
       for (const std::uint32_t c : asked) {

@@ -45,12 +45,12 @@ class OutwardTubes {
     std::vector<std::unique_ptr<FlowExtremes>> flows(static_cast<std::size_t>(team.size()));
     const auto count = static_cast<std::int64_t>(asked_.size());
     constexpr std::int64_t kBlock = 1024;
-    const Work of_tube = budget.of_part(kBlock);
+    const Work of_begun = budget.of_begun(kBlock);
     answer_within(budget, count, kBlock, team, [&](std::int64_t i, Work most, int worker) {
       auto& flow = flows[static_cast<std::size_t>(worker)];
       if (!flow) flow = std::make_unique<FlowExtremes>(spec_, influences_, target_.step.get_d());
       const Work before = flow->work();
-      flow->limit_work(std::max(most, of_tube));
+      flow->limit_work(most + of_begun);
       check(Odometer(choices_.counts(), asked_[static_cast<std::size_t>(i)]), before + most, *flow);
       return flow->work() - before;
     });

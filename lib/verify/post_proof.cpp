@@ -68,8 +68,9 @@ PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const Po
 /// comes first, so that what has no chance costs one enclosure.
 std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
                                          std::vector<OpenPart>& parts, const PostEffort& effort, Work most,
-                                         Work of_piece) {
+                                         Work beyond) {
   const Work end = work() + most;
+  const Work last = end + beyond;
   std::vector<PostProof> proofs(claims.size());
   std::vector<Piece> pending;
   for (auto part = parts.rbegin(); part != parts.rend(); ++part)
@@ -80,11 +81,16 @@ std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<P
     pending.pop_back();
     leave(piece.part, proofs, parts);
     if (piece.part.claims.empty()) continue;
+    if (work() >= last) {
+      for (const std::uint32_t c : piece.part.claims) proofs[c] = {PostVerdict::open, kNoWorkLeft, true};
+      leave(piece.part, proofs, parts);
+      continue;
+    }
     const bool has_cuts =
         boxes + static_cast<int>(pending.size()) < effort.most_boxes && piece.part.cuts.size() < kMostCuts;
     const bool may_cut = has_cuts && work() < end;
     std::vector<PostProof> own(claims.size());
-    next_->limit_work(std::max(end - work(), of_piece));
+    next_->limit_work(last - work());
     const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
     std::erase_if(piece.part.claims, [&](std::uint32_t c) {
       const bool is_open = own[c].verdict == PostVerdict::open;

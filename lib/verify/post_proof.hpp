@@ -61,11 +61,12 @@ class PostProver {
   /// @param box where the present state can be
   /// @param parts of the box on which claims are to be proven; is set to those on which they are still open.
   ///   A part without cuts is the whole box
-  /// @param most work; a piece that is begun may go on beyond it, but takes no more than `of_piece` then
+  /// @param most work after which nothing is cut
+  /// @param beyond work after that, for pieces that are not yet proven; then the rest is left
   /// @returns one a claim
   [[nodiscard]] std::vector<PostProof> prove(const SpanBox& box, const std::vector<PostClaim>& claims,
                                              std::vector<OpenPart>& parts, const PostEffort& effort,
-                                             Work most, Work of_piece);
+                                             Work most, Work beyond);
   /// Done so far.
   [[nodiscard]] Work work() const { return next_->work(); }
 

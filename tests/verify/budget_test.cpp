@@ -25,10 +25,22 @@ TEST(Budget, EndsAtTheSameQuestionWhateverTheNumberOfThreads) {
 }
 
 TEST(Budget, IsSharedByWhatIsLeft) {
-  EXPECT_EQ(Budget(1000).share(100), 10);
-  EXPECT_EQ(Budget(1000).share(2), 50);  // a twentieth
+  EXPECT_EQ(Budget(1000).share(100), 9);  // of 938
+  EXPECT_EQ(Budget(1000).share(2), 50);   // a twentieth
   EXPECT_EQ(Budget(1000).share(100000), 1);
   EXPECT_EQ(Budget(0).share(1), 0);
+}
+
+TEST(Budget, IsEnoughForWhatIsBegunWhenSharesAreSpent) {
+  ThreadTeam team(1);
+  for (const Work all : {5000, 100000}) {
+    Budget budget(all);
+    const Work begun = budget.of_begun(64);
+    answer_within(budget, 500, 64, team,
+                  [&](std::int64_t, Work most, int) { return most == 0 ? 0 : most + begun; });
+    EXPECT_LE(budget.spent(), all);
+    EXPECT_GT(budget.spent(), all / 2);
+  }
 }
 
 TEST(Budget, DecidesWhatIsConfirmedAndThreadsDoNot) {
