@@ -26,7 +26,7 @@ constexpr double kLongEnough = 0.3, kShortEnough = 0.5;
 constexpr double kPatience = 2;
 /// Boxes that are enclosed to see what all of them take: no fewer, and more within this time.
 constexpr std::int64_t kFewBoxes = 12, kManyBoxes = 200;
-constexpr double kBoxSeconds = 1;
+constexpr double kBoxSeconds = 0.5;
 /// An entry of a table beside them, in seconds, about.
 constexpr double kOfExactEntry = 5e-7;
 /// By which powers of the number of cells work grows: equal work is done once, so that it may be few.
@@ -117,15 +117,17 @@ std::optional<double> measured_enclosures(const Model& model) {
     std::int64_t boxes = 0;
     for (; boxes < kFewBoxes || (boxes < kManyBoxes && processor_seconds() - begin < most); ++boxes)
       sample.enclose_next();
-    seconds += (processor_seconds() - begin) / static_cast<double>(boxes) * group.choices;
+    seconds += (processor_seconds() - begin) / static_cast<double>(boxes) * sample.choices();
   }
   return seconds;
 }
 
-/// The problem with steps `factor` times as long; 1: as it is.
+/// The problem with steps `factor` times as long; 1: on its own grid. Boxes are not divided: what that takes
+/// is seen by a sample, and copies show the rest.
 ProblemSpec coarser(const ProblemSpec& spec, std::int64_t factor) {
   constexpr std::int64_t kFewPoints = 4;
   ProblemSpec copy = spec;
+  copy.abstraction.effort = 0;
   if (factor == 1) return copy;
   copy.controller.file.reset();  // that is of one grid
   copy.requirements.clear();     // their regions may be none on another
@@ -159,12 +161,11 @@ double extrapolated(const Model& model, const std::vector<Measured>& copies,
          last.rest * std::pow(cells / last.cells, std::clamp(power, kLeastPower, kMostPower));
 }
 
-std::optional<double> estimated(const Model& model, ThreadTeam& team) {
+/// @param enclosures as in extrapolated()
+std::optional<double> estimated(const Model& model, ThreadTeam& team, std::optional<double> enclosures) {
   const ProblemSpec& spec = model.spec();
   const double cells = cells_of(spec);
   std::vector<Measured> copies;
-  std::optional<double> enclosures = measured_enclosures(model);
-  if (enclosures) *enclosures /= team.size();
   for (auto most = static_cast<double>(kFirstCells);; most *= kGrowth) {
     const std::optional<ProblemSpec> copy = copy_within(spec, most);
     if (copy && (copies.empty() || cells_of(*copy) > copies.back().cells))
@@ -179,16 +180,19 @@ std::optional<double> estimated(const Model& model, ThreadTeam& team) {
       const double seconds = extrapolated(model, copies, enclosures);
       return seconds > 0 ? std::optional(seconds) : std::nullopt;
     }
-    if (last.cells == cells) return last.all();
     const bool is_last = last.all() > (last.cells * kGrowth >= cells ? kShortEnough : kLongEnough);
-    if ((is_last && copies.size() > 1) || most > cells) return extrapolated(model, copies, enclosures);
+    if ((is_last && copies.size() > 1) || last.cells == cells || most > cells)
+      return extrapolated(model, copies, enclosures);
   }
 }
 
 }  // namespace
 
 std::optional<double> estimate_seconds(const Model& model, ThreadTeam& team) {
-  return if_possible([&] { return estimated(model, team); }).value_or(std::nullopt);
+  std::optional<double> enclosures =
+      if_possible([&] { return measured_enclosures(model); }).value_or(std::nullopt);
+  if (enclosures) *enclosures /= team.size();
+  return if_possible([&] { return estimated(model, team, enclosures); }).value_or(enclosures);
 }
 
 bool may_take_hours(const Model& model) {

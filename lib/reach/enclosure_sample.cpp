@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/index.hpp"
 #include "reach/affine_dynamics.hpp"
@@ -44,14 +45,14 @@ std::vector<EnclosedGroup> enclosed_groups(const SystemSpec& spec, const std::ve
   const AffineDynamics dynamics(spec);
   std::vector<EnclosedGroup> groups;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    if (shapes[i].sum || !is_enclosed(spec, dynamics, i)) continue;
+    if (!is_enclosed(spec, dynamics, i)) continue;
     const auto serves = [&](const EnclosedGroup& group) {
       const Dependencies& own = shapes[group.states.front()];
-      return spec.dynamics.time == Time::continuous && own == shapes[i];
+      return spec.dynamics.time == Time::continuous && own == shapes[i] && group.terms == shapes[i].terms;
     };
     const auto group = std::find_if(groups.begin(), groups.end(), serves);
     if (group == groups.end()) {
-      groups.push_back({{i}, shapes[i].entries});
+      groups.push_back({{i}, shapes[i].terms});
     } else {
       group->states.push_back(i);
     }
@@ -60,10 +61,14 @@ std::vector<EnclosedGroup> enclosed_groups(const SystemSpec& spec, const std::ve
 }
 
 EnclosureSample::EnclosureSample(const SystemSpec& spec, const EnclosedGroup& group)
-    : enclosure_(spec, find_dependencies(spec, group.states.front()), group.states) {
+    : enclosure_(spec, find_dependencies(spec, group.states.front()), group.states, !group.terms.empty()) {
   const Dependencies dependencies = find_dependencies(spec, group.states.front());
   for (const std::int32_t j : dependencies.all_states()) {
     if (enclosure_.shifts() && at(j) == group.states.front()) continue;
+    if (contains(group.terms, j)) {
+      enclosure_.set(spec.state_slot(at(j)), {0.0, 0.0});
+      continue;
+    }
     const GridDimension dimension = dimension_of(spec.states[at(j)]);
     choices_.add_state(dimension, spec.state_slot(at(j)), dimension.count);
     counts_.push_back(dimension.count);
@@ -76,6 +81,12 @@ EnclosureSample::EnclosureSample(const SystemSpec& spec, const EnclosedGroup& gr
   const double root = evenly(counts_.size());
   double stride = 1.0;
   for (std::size_t v = 0; v < counts_.size(); ++v) strides_.push_back(stride /= root);
+}
+
+double EnclosureSample::choices() const {
+  return std::accumulate(counts_.begin(), counts_.end(), 1.0, [](double product, std::int64_t count) {
+    return product * static_cast<double>(count);
+  });
 }
 
 std::int64_t EnclosureSample::enclose_next() {

@@ -16,11 +16,11 @@ namespace coordreq {
 /// States whose posts build_abstraction() takes from the same enclosures.
 struct EnclosedGroup {
   std::vector<std::size_t> states;
-  double choices = 1;  ///< of indices of all that they depend on: so many boxes are enclosed
+  std::vector<std::int32_t> terms;  ///< states that are added later: their boxes are 0 (build_sum_tables())
 };
 
-/// All of them; but for those whose tables are sums, of which few boxes are enclosed. A state that is affine
-/// for the least, the middle and the greatest choice of parameters and inputs is taken to be affine.
+/// All of them. A state that is affine for the least, the middle and the greatest choice of parameters and
+/// inputs is taken to be affine.
 /// @param shapes of table_shapes()
 [[nodiscard]] std::vector<EnclosedGroup> enclosed_groups(const SystemSpec& spec,
                                                          const std::vector<TableShape>& shapes);
@@ -30,6 +30,9 @@ class EnclosureSample {
  public:
   /// @pre unchecked: `spec` outlives this object.
   EnclosureSample(const SystemSpec& spec, const EnclosedGroup& group);
+
+  /// Choices of indices of all that the states depend on: so many boxes are enclosed for the tables.
+  [[nodiscard]] double choices() const;
 
   /// Encloses the box of one more choice; choices lie all over the grid, the same every time.
   /// @returns how many parts were enclosed

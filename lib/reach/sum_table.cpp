@@ -180,7 +180,7 @@ class SumTables {
     std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure_);
     const Odometer all = rest_.odometer();
     std::atomic<bool> found = true;
-    for_each_divided(ranks, team, all.size(), 64, [&](ThreadTeam::Range range, int worker) {
+    for_each_divided(ranks, team, all.size(), 4, [&](ThreadTeam::Range range, int worker) {
       Odometer choice = all;
       choice.seek(range.begin);
       for (std::int64_t i = range.begin; i < range.end && found; ++i, choice.advance()) {

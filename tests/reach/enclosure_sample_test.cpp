@@ -41,7 +41,7 @@ TEST(EnclosureSample, CountsTheBoxesThatTablesNeed) {
   const std::vector<EnclosedGroup> groups = groups_of(spec);
   ASSERT_EQ(groups.size(), 1);
   EXPECT_EQ(groups[0].states, (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(groups[0].choices, 9 * 9 * 2);
+  EXPECT_EQ(EnclosureSample(spec, groups[0]).choices(), 9 * 9 * 2);
 }
 
 TEST(EnclosureSample, HasNothingOfExactPosts) {
@@ -49,9 +49,21 @@ TEST(EnclosureSample, HasNothingOfExactPosts) {
 }
 
 TEST(EnclosureSample, KnowsAStateThatIsAffineOnlyWithoutAnInput) {
-  const std::vector<EnclosedGroup> groups = groups_of(spec_of(R"_({"x": "u*sin(x)", "y": "v", "z": "1"})_"));
+  const ProblemSpec spec = spec_of(R"_({"x": "u*sin(x)", "y": "v", "z": "1"})_");
+  const std::vector<EnclosedGroup> groups = groups_of(spec);
   ASSERT_EQ(groups.size(), 1);
-EXPECT_EQ(groups[0].choices, 9 * 2);
+  EXPECT_EQ(EnclosureSample(spec, groups[0]).choices(), 9 * 2);
+}
+
+TEST(EnclosureSample, KnowsThatTablesOfSumsNeedFewBoxes) {
+  const ProblemSpec spec = spec_of(R"_({"x": "y + sin(z)", "y": "-x + cos(z)", "z": "v"})_");
+  const std::vector<EnclosedGroup> groups = groups_of(spec);
+  ASSERT_EQ(groups.size(), 1);
+  EXPECT_EQ(groups[0].states, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(groups[0].terms, (std::vector<std::int32_t>{0, 1}));
+  EnclosureSample sample(spec, groups[0]);
+  EXPECT_EQ(sample.choices(), 9 * 2);
+  EXPECT_GE(sample.enclose_next(), 1);
 }
 
 TEST(EnclosureSample, TellsByFewBoxesHowManyPartsAllTake) {
