@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kMostCorners = 128;
 constexpr std::size_t kBetween = 16;
 constexpr double kMotionTolerance = 1e-9;
-/// Sub-steps of all solutions: some hundred each, some thousand where they are stiff.
-constexpr std::int64_t kMostTried = 1'000'000;
+/// Sub-steps of all solutions: some hundred each, two thousand where they are stiff.
+constexpr std::int64_t kMostTried = 300'000;
 
 /// Ends of what each slot can be.
 struct Ends {
