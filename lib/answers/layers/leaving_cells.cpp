@@ -1,6 +1,8 @@
 #include "answers/layers/leaving_cells.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <deque>
 #include <map>
 #include <memory>
@@ -11,6 +13,7 @@
 #include "answers/layers/outward_runs.hpp"
 #include "answers/layers/safe_sides.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "engine/find_levels.hpp"
 #include "engine/level_messages.hpp"
 #include "engine/post_reader.hpp"
@@ -60,7 +63,6 @@ class LeavingRows {
     std::copy(row.begin(), row.end(), asked_.begin());
     if (context_.over) remove(context_.over->row(place.row), asked_);
     const bool full = is_full(place.row);
-    members_of_.clear();
     if (full) {
       std::copy(asked_.begin(), asked_.end(), outward.begin());
     } else {
@@ -72,11 +74,25 @@ class LeavingRows {
     ++rows_;
     if (!full) keep_admissible(place, outward);
     remove(near_, row);
+    for (const Word word : near_) taken_ += word == 0 ? 0 : std::popcount(word);
+  }
+
+  /// Whether the outward joint input is in C(x) and leads ahead, for all of these unbounded cells of the row,
+  /// which are not ahead by all joint inputs.
+  [[nodiscard]] bool lead_ahead(const RowPlace& place, ConstRow cells) {
+    ++rows_;
+    if (!sides_.outward_leads_ahead(place, cells)) return false;
+    if (is_full(place.row)) return true;
+    enter(place);
+    keep_members(place, sides_.outward(), cells, members_);
+    return std::ranges::equal(members_, cells);
   }
 
   /// Rows with cells near a side, and rows of posts that were read.
   [[nodiscard]] std::int64_t rows() const { return rows_; }
   [[nodiscard]] std::int64_t reads() const { return reads_; }
+  /// Cells that were taken out.
+  [[nodiscard]] std::int64_t taken() const { return taken_; }
 
  private:
   /// Every joint input is in C(x), at all x of K in the row.
@@ -93,14 +109,16 @@ class LeavingRows {
 
   /// Keeps of near_ the cells from which a joint input of C(x) leaves.
   void keep_admissible(const RowPlace& place, ConstRow outward) {
-    asked_ = near_;
+    std::copy(near_.begin(), near_.end(), asked_.begin());
     sides_.find_leaving_outward(place, asked_, leaving_);
     for (std::size_t w = 0; w < asked_.size(); ++w) asked_[w] &= ~(leaving_[w] & outward[w]);
+    members_of_.clear();
     for (std::size_t side = 0; side < sides_.size() && any_set(asked_); ++side) {
       for (std::size_t part = sides_.parts(side); part-- > 0 && any_set(asked_);) {
         sides_.find_leaving(side, part, place, asked_, leaving_);
         if (!any_set(leaving_)) continue;
         sides_.for_each_input(side, part, [&](std::int64_t u) {
+          if (u == sides_.outward()) return true;  // from none of these
           keep_members(place, u, leaving_, members_);
           remove(members_, asked_);
           remove(members_, leaving_);
@@ -124,16 +142,23 @@ class LeavingRows {
     }
   }
 
-  /// The cells of the row whose post under u lies in K, found once for all joint inputs with the same posts.
+  /// The cells of the row whose post under u lies in K; of other joint inputs than the outward one found once
+  /// for all with the same posts.
   const std::vector<Word>& staying(const RowPlace& place, std::int64_t u) {
     find_slices(engine_, place, u, ids_);
+    if (u == sides_.outward()) return read(staying_);
     const auto [found, is_new] = members_of_.try_emplace(ids_);
     if (!is_new) return found->second;
-    ++reads_;
     found->second.resize(near_.size());
+    return read(found->second);
+  }
+
+  /// result = those cells, of ids_.
+  const std::vector<Word>& read(std::vector<Word>& result) {
+    ++reads_;
     const LaneRange lanes = engine_.all_lanes();
-    posts_.kernels().top_bits(posts_.minimum(ids_, lanes, 0), found->second.data(), lanes.size());
-    return found->second;
+    posts_.kernels().top_bits(posts_.minimum(ids_, lanes, 0), result.data(), lanes.size());
+    return result;
   }
 
   const AnalysisContext& context_;
@@ -146,30 +171,91 @@ class LeavingRows {
   std::vector<Word> near_;
   std::vector<Word> leaving_;
   std::vector<Word> members_ = std::vector<Word>(near_.size());
+  std::vector<Word> staying_ = std::vector<Word>(near_.size());
   std::map<std::vector<std::uint32_t>, std::vector<Word>> members_of_;  ///< by the numbers of the slices
   std::vector<std::uint32_t> ids_;
   std::int64_t unit_ = -1;  ///< that the reader was entered for
   std::int64_t rows_ = 0;
   std::int64_t reads_ = 0;
+  std::int64_t taken_ = 0;
 };
+
+/// Calls `visit(workers)` with a LeavingRows for each thread.
+template <class Visit>
+void with_workers(const Answers& answers, const Projections& projections, const SafeSides& sides,
+                  ThreadTeam& team, const Visit& visit) {
+  answers.get<GoingOn>().controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::deque<LeavingRows<Level>> workers;
+    for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
+    visit(workers);
+  });
+}
+
+/// The unbounded cells of a row. @pre rows are along one dimension
+void find_unbounded(const LevelMap& layers_of, std::int64_t row, MutableRow result) {
+  layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
+    REQUIRES(levels.shape().dimensions.size() == 1);
+    level_kernels<Level>(best_instruction_set())
+        .top_bits(levels.row(row), result.data(), at(levels.row_length()));
+  });
+}
+
+/// True if each unbounded cell has a joint input in C(x) that leads out or to a cell that is further outward.
+/// Then all of them leave: of the cells of Y those that are furthest outward would have such a joint input,
+/// but it leads to no other cell of Y. In C(x) there is some joint input, so that in most cells nothing needs
+/// to be known but the tables of the sides.
+/// @returns false also where that is not known
+bool all_lead_ahead(const Answers& answers, const Projections& projections, const DelayLayers& layers,
+                    const SafeSides& sides, ThreadTeam& team, LeavingCounts& counts) {
+  const AnalysisContext& context = answers.context;
+  const RowEngine& engine = *context.engine;
+  const bool may_be_empty = answers.get<GoingOn>().controller.synthesis != Synthesis::maximal &&
+                            context.pairs.admissible() != nullptr;
+  if (context.over || may_be_empty || engine.along() != 1 || !sides.knows_ahead()) return false;
+  std::atomic<bool> all = true;
+  LeavingCounts found;
+  with_workers(answers, projections, sides, team, [&](auto& workers) {
+    std::vector<Word> every(engine.row_words());
+    set_bits(every, 0, engine.row_length());
+    for_each_own_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
+      std::vector<Word> ahead(every.size()), open(every.size());
+      for (RowPlace place(engine.grid(), range.begin); all && place.row < range.end;
+           place.advance(engine.grid())) {
+        sides.find_ahead(place, every, ahead);
+        if (ahead == every) continue;
+        find_unbounded(layers.layers_of, place.row, open);
+        remove(ahead, open);
+        if (any_set(open) && !workers[at(worker)].lead_ahead(place, open)) all = false;
+      }
+    });
+    for (const auto& worker : workers) {
+      found.rows_near += worker.rows();
+      found.rows_read += worker.reads();
+    }
+  });
+  if (sum_of_all(engine.share(), all ? 0 : 1) > 0) return false;
+  counts.cells = layers.sizes.back();
+  counts.rows_near = sum_of_all(engine.share(), found.rows_near);
+  counts.rows_read = sum_of_all(engine.share(), found.rows_read);
+  return true;
+}
 
 /// Takes the cells out from which some joint input leaves, in the rows owned.
 /// @param outward takes the cells with the outward joint input in C(x)
 void take_out_leaving(const Answers& answers, const Projections& projections, const SafeSides& sides,
                       ThreadTeam& team, CellSet& cells, CellSet& outward, LeavingCounts& counts) {
   const RowEngine& engine = *answers.context.engine;
-  answers.get<GoingOn>().controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
-    std::deque<LeavingRows<Level>> workers;
-    for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
+  with_workers(answers, projections, sides, team, [&](auto& workers) {
     for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         if (any_set(cells.row(place.row)))
           workers[at(worker)].take_out(place, cells.row(place.row), outward.row(place.row));
       }
     });
-    for (const LeavingRows<Level>& worker : workers) {
+    for (const auto& worker : workers) {
       counts.rows_near += worker.rows();
       counts.rows_read += worker.reads();
+      counts.cells += worker.taken();
     }
   });
 }
@@ -197,24 +283,23 @@ LeavingCounts count_leaving_cells(const Answers& answers, const Projections& pro
                                   const DelayLayers& layers, const WaveWatch& watch, ThreadTeam& team) {
   const AnalysisContext& context = answers.context;
   const RowEngine& engine = *context.engine;
-  const auto count = [&](const CellSet& set) {
-    const RowShare::Range own = own_rows(engine.share(), set.rows());
-    return sum_of_all(engine.share(), set.count(own.begin, own.end));
-  };
   LeavingCounts counts;
+  SafeSides sides(context);
+  if (all_lead_ahead(answers, projections, layers, sides, team, counts)) return counts;
+  sides.make_ready(team);
   const CellSet all = layers.layers_of.top_cells(team);
   const std::int64_t unbounded = layers.sizes.back();
   CellSet cells = all;
-  const SafeSides sides(context, team);
   {
     CellSet outward(engine.rows(), engine.row_length());
     take_out_leaving(answers, projections, sides, team, cells, outward, counts);
-    counts.cells = unbounded - count(cells);
     // Where no joint input leaves, or nothing is left, there is nothing to spread.
-    if (counts.cells > 0 && counts.cells < unbounded - context.over_cells)
-      counts.cells += sum_of_all(engine.share(), take_out_runs(context, sides, all, outward, team, cells));
+    const std::int64_t found = sum_of_all(engine.share(), counts.cells);
+    if (found > 0 && found < unbounded - context.over_cells)
+      counts.cells += take_out_runs(context, sides, all, outward, team, cells);
   }
-  for (std::int64_t* rows : {&counts.rows_near, &counts.rows_read}) *rows = sum_of_all(engine.share(), *rows);
+  for (std::int64_t* number : {&counts.cells, &counts.rows_near, &counts.rows_read})
+    *number = sum_of_all(engine.share(), *number);
   if (counts.cells == 0 || counts.cells == unbounded - context.over_cells) return counts;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include "base/index.hpp"
@@ -10,14 +9,15 @@
 namespace coordreq {
 namespace {
 
-/// A round that takes out less than this part of what is left is the last.
+/// A round that takes out less than this part of all that was taken out is the last.
 constexpr std::int64_t kLeastPart = 8;
 
 /// Where the cells of a row go by the outward joint input: one cell of the post of each.
 class OutwardCells {
  public:
+  static constexpr std::int64_t kNone = -1;
   struct Target {
-    std::int64_t row = 0;
+    std::int64_t row = kNone;
     std::int64_t offset = 0;  ///< along it
   };
 
@@ -32,16 +32,16 @@ class OutwardCells {
     }
   }
 
-  /// Nothing if the cells of the row do not all go on alike.
-  [[nodiscard]] std::optional<Target> of(const RowPlace& place) const {
-    Target target;
+  /// Row kNone if the cells of the row do not all go on alike.
+  [[nodiscard]] Target of(const RowPlace& place) const {
+    Target target{.row = 0};
     for (std::size_t i = 0; i < engine_.tables(); ++i) {
       const RowSlices& slices = engine_.slices()[i];
       const std::vector<RowSegment>& segments = slices.slices[slices.number(slices.base(place) + inputs_[i])];
       const bool is_across = i < engine_.across();
       if (segments.size() != 1 ||
           segments.front().kind != (is_across ? RowSegment::Kind::fixed : RowSegment::Kind::shifted))
-        return std::nullopt;
+        return {};
       const IndexRange range = segments.front().range;
       const std::int64_t end = sides_.is_below(i) ? range.first : range.last;
       const GridDimension& dimension = engine_.grid()[i];
@@ -78,21 +78,26 @@ std::int64_t take_out_runs(const AnalysisContext& context, const SafeSides& side
   if (!engine.posts().is_cut() || engine.along() != 1) return 0;
   const OutwardCells cells(engine, sides, sides.outward());
   const RowShare::Range own = own_rows(engine.share(), engine.rows());
-  std::int64_t rest = left.count(own.begin, own.end), total = 0;
-  for (bool goes_on = true; goes_on;) {
+  std::vector<OutwardCells::Target> targets(at(own.end - own.begin));
+  std::int64_t total = 0;
+  for (bool is_first = true, goes_on = true; goes_on; is_first = false) {
     const CellSet before = left;
     std::vector<std::int64_t> taken(at(std::int64_t{team.size()}), 0);
     for_each_own_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        const MutableRow row = left.row(place.row);
-        if (!any_set(row)) continue;
-        const std::optional<OutwardCells::Target> target = cells.of(place);
-        if (!target) continue;
-        const ConstRow all_there = all.row(target->row), left_there = before.row(target->row);
-        const ConstRow may = outward.row(place.row);
+      RowPlace place(engine.grid(), range.begin);
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
+        OutwardCells::Target& target = targets[at(r - own.begin)];
+        const MutableRow row = left.row(r);
+        const ConstRow may = outward.row(r);
+        if (is_first) {
+          if (any_set(row)) target = cells.of(place);
+          place.advance(engine.grid());
+        }
+        if (target.row == OutwardCells::kNone) continue;
+        const ConstRow all_there = all.row(target.row), left_there = before.row(target.row);
         for (std::size_t w = 0; w < row.size(); ++w) {
           if ((row[w] & may[w]) == 0) continue;
-          const Word out = shifted_word(static_cast<std::int64_t>(w), target->offset, std::ssize(row),
+          const Word out = shifted_word(static_cast<std::int64_t>(w), target.offset, std::ssize(row),
                                         [&](std::size_t k) { return all_there[k] & ~left_there[k]; });
           const Word found = out & row[w] & may[w];
           row[w] &= ~found;
@@ -102,8 +107,7 @@ std::int64_t take_out_runs(const AnalysisContext& context, const SafeSides& side
     });
     const std::int64_t round = std::accumulate(taken.begin(), taken.end(), std::int64_t{0});
     total += round;
-    rest -= round;
-    goes_on = round > 0 && rest > 0 && round >= rest / kLeastPart;
+    goes_on = round > 0 && round >= total / kLeastPart;
   }
   return total;
 }

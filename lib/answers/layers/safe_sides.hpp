@@ -19,11 +19,23 @@ namespace coordreq {
 /// Where a side depends on few of the states across rows, all that is found once for all rows that agree in
 /// these; else when a row is asked about.
 ///
-/// Immutable once built, so safe to share between threads.
+/// Safe to share between threads but during make_ready().
 class SafeSides {
  public:
   /// @pre unchecked: `context` outlives this object
-  SafeSides(const AnalysisContext& context, ThreadTeam& team);
+  explicit SafeSides(const AnalysisContext& context);
+
+  /// Whether find_ahead() may be asked.
+  [[nodiscard]] bool knows_ahead() const;
+  /// result = of these cells of a row those that are *ahead*: every joint input, in C(x) or not, leads out
+  /// through a side or to a cell that is further outward, by the sum of the indices in the dimensions of the
+  /// sides. Some such cells may be missing.
+  void find_ahead(const RowPlace& place, ConstRow cells, MutableRow result) const;
+  /// Whether the outward joint input leads out or to a cell that is further outward, from all of these cells.
+  [[nodiscard]] bool outward_leads_ahead(const RowPlace& place, ConstRow cells) const;
+
+  /// Gets ready for the questions below.
+  void make_ready(ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const { return sides_.size(); }
   /// Number of choices of the inputs on which a side depends.
@@ -54,15 +66,26 @@ class SafeSides {
     std::vector<std::int32_t> inputs = {};  ///< on which it depends
     std::vector<std::int64_t> parts = {};   ///< a joint input for each choice of these, the last one fastest
     std::vector<std::int64_t> rests = {};   ///< what each choice of all other inputs adds to its number
+    /// If its table is a sum what choices of inputs add to positions: [choice of the inputs of terms][base,
+    /// then each term], and [choice of all other inputs] of the base.
+    std::vector<std::int64_t> of_terms = {}, of_base = {};
     bool is_along = false;           ///< it depends on a dimension along rows; else a row is near it or not
     std::size_t words = 1;           ///< of a row in `near` and `outward`
     std::vector<Word> near = {};     ///< [choice(), word]; empty: found when a row is asked about
     std::vector<Word> outward = {};  ///< likewise, the cells from which outward_ leaves
+    /// [choice(), word] the cells from which every joint input leads at least one index outward in the
+    /// dimension, and those from which some leads back; empty: not known.
+    std::vector<Word> ahead = {}, back = {};
   };
 
   void add(std::size_t i);
   void choose_outward();
+  void add_choices(Side& side) const;
   void fill(Side& side, ThreadTeam& team) const;
+  void fill_ahead(Side& side) const;
+  /// Number of choices of states across rows on which a side depends; 0 if to look at each would take more
+  /// than a look for each cell.
+  [[nodiscard]] std::int64_t choices(const Side& side) const;
   /// The first cell of a row that has a choice of states across rows.
   [[nodiscard]] std::int64_t first_cell(const Side& side, std::int64_t choice) const;
   /// Sets the bits of the row for which `test(cell)` is true. @param first cell of the row
@@ -76,6 +99,16 @@ class SafeSides {
   [[nodiscard]] bool is_near(const Side& side, std::int64_t x) const;
   [[nodiscard]] bool leaves(const Side& side, std::int64_t x, std::int64_t u) const {
     return passes(side.dimension, abstraction_.raw(side.dimension, x, u));
+  }
+  /// The least range around those of all joint inputs, of a side whose table is a sum.
+  [[nodiscard]] IndexRange around_sums(const Side& side, std::int64_t x) const;
+  /// By how many indices the end of each range, of any joint input, is further outward than a cell, at least.
+  /// @pre its table is no sum
+  [[nodiscard]] std::int64_t least_gain(const Side& side, std::int64_t x) const;
+  /// How far outward the end of a range is from a cell.
+  [[nodiscard]] std::int64_t gain(const Side& side, std::int64_t x, IndexRange range) const {
+    const std::int64_t index = grid_.index(x, side.dimension);
+    return is_below(side.dimension) ? index - range.first : range.last - index;
   }
   /// Whether a raw range of a dimension goes beyond a `safe` side of it.
   [[nodiscard]] bool passes(std::size_t dimension, IndexRange raw) const;
