@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostCorners = 128;
 constexpr std::size_t kBetween = 16;
-constexpr double kMotionTolerance = 1e-9;
+constexpr double kMotionTolerance = 1e-7;  // six digits are shown
 /// Sub-steps of all solutions: some hundred each, two thousand where they are stiff.
 constexpr std::int64_t kMostTried = 300'000;
 

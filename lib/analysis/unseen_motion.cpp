@@ -24,7 +24,7 @@ namespace {
 /// Reads of tables and of sets, of all pairs together: a share of the cells, so that the search stays small
 /// beside the analysis; on small grids a few for each cell.
 constexpr std::int64_t kFewestReads = 20'000, kManyReads = 100'000, kMostReads = 2'000'000;
-constexpr std::int64_t kCellsOfRead = 2, kReadsOfCell = 3;
+constexpr std::int64_t kCellsOfRead = 16, kReadsOfCell = 3;
 /// Solutions that are followed, and the sub-steps of each.
 constexpr std::int64_t kMostFollowed = 500;
 constexpr std::int64_t kMostSubSteps = 64;

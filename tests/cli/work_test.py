@@ -5,9 +5,9 @@ import unittest
 
 from program import CONFIGS, ROOT, Case, without_comments
 
-# Reads of tables and sets: half of one for each cell, or a number that no small problem notices: three for each cell, but
+# Reads of tables and sets: a sixteenth of one for each cell, or a number that no small problem notices: three for each cell, but
 # between these. A cell or a solution may go beyond it before the search ends.
-READS_OF_CELL, READS_OF_FEW_CELLS = 0.5, 3
+READS_OF_CELL, READS_OF_FEW_CELLS = 0.0625, 3
 FEW_READS, MANY_READS, MORE_READS = 20_000, 100_000, 10_000
 # Rows of posts read to count the cells that leave, and rows visited to spread that, of the rows that the layers visit.
 SHARE_READ, SHARE_VISITED = 0.4, 0.1
