@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "spec/problem_spec.hpp"
 
@@ -50,8 +51,11 @@ ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, Ran
     : team_(team),
       driver_(driver),
       ranks_(ranks),
-      scratch_(static_cast<std::size_t>(team.size())),
-      packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {}
+      packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {
+  const auto known = std::make_shared<KnownChunks>();
+  for (int worker = 0; worker < team.size(); ++worker)
+    scratch_.push_back({.codec = ChunkCodec(known), .raw = {}});
+}
 
 hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& path,
                                 const std::vector<hsize_t>& shape, const ResultArray& array) {

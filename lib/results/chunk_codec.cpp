@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "base/requires.hpp"
 
@@ -100,30 +102,52 @@ void ChunkCodec::Free::operator()(z_stream* stream) const {
   delete stream;
 }
 
-ChunkCodec::ChunkCodec() : stream_(new z_stream{}) {
+ChunkCodec::ChunkCodec(std::shared_ptr<KnownChunks> known)
+    : stream_(new z_stream{}), known_(std::move(known)) {
   if (deflateInit2(stream_.get(), kDeflateLevel, Z_DEFLATED, kRawWindow, kMemoryLevel, Z_DEFAULT_STRATEGY) !=
       Z_OK) {
     throw std::bad_alloc();
   }
 }
 
-void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
-                      std::vector<std::byte>& packed) {
+bool KnownChunks::find(std::span<const std::byte> raw, std::size_t element_size,
+                       std::vector<std::byte>& packed) const {
   const std::uint64_t mark = mark_of(raw) ^ element_size;
-  for (const Known& known : known_) {
-    if (known.mark != mark || known.element_size != element_size || known.raw.size() != raw.size()) continue;
+  std::vector<std::shared_ptr<const Known>> alike;
+  {
+    const std::lock_guard lock(mutex_);
+    std::ranges::copy_if(known_, std::back_inserter(alike), [&](const std::shared_ptr<const Known>& known) {
+      return known->mark == mark && known->element_size == element_size;
+    });
+  }
+  for (const std::shared_ptr<const Known>& shared : alike) {
+    const Known& known = *shared;
+    if (known.raw.size() != raw.size()) continue;
     if (!raw.empty() && std::memcmp(known.raw.data(), raw.data(), raw.size()) != 0) continue;
     packed = known.packed;
-    return;
+    return true;
   }
+  return false;
+}
+
+void KnownChunks::add(std::span<const std::byte> raw, std::size_t element_size,
+                      std::span<const std::byte> packed) {
+  auto known = std::make_shared<Known>();
+  known->mark = mark_of(raw) ^ element_size;
+  known->element_size = element_size;
+  known->raw.assign(raw.begin(), raw.end());
+  known->packed.assign(packed.begin(), packed.end());
+  const std::lock_guard lock(mutex_);
+  if (known_.size() < kMost) known_.emplace_back();
+  known_[oldest_] = std::move(known);
+  oldest_ = (oldest_ + 1) % kMost;
+}
+
+void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
+                      std::vector<std::byte>& packed) {
+  if (known_->find(raw, element_size, packed)) return;
   compress(raw, element_size, packed);
-  if (known_.size() < kMostKnown) known_.emplace_back();
-  Known& oldest = known_[oldest_];
-  oldest_ = (oldest_ + 1) % kMostKnown;
-  oldest.mark = mark;
-  oldest.element_size = element_size;
-  oldest.raw.assign(raw.begin(), raw.end());
-  oldest.packed = packed;
+  known_->add(raw, element_size, packed);
 }
 
 void ChunkCodec::compress(std::span<const std::byte> raw, std::size_t element_size,
