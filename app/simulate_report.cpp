@@ -128,7 +128,13 @@ Json trace_json(const RunTrace& trace, std::size_t run, const ProblemSpec& spec)
             {"smallest_margin", trace.smallest_margin()},
             {"start", state_json(trace.samples.front().state, spec)},
             {"end", state_json(trace.samples.back().state, spec)}};
-  if (spec.goal) json["arrived"] = trace.arrived ? Json(*trace.arrived) : Json();
+  const auto or_null = [](std::optional<std::int64_t> steps) { return steps ? Json(*steps) : Json(); };
+  if (spec.goal && !spec.is_goal_lasting()) json["arrived"] = or_null(trace.arrived);
+  if (spec.goal_then == GoalThen::come_back) json["longest_gap"] = or_null(trace.longest_gap());
+  if (spec.goal_then == GoalThen::stay) {
+    json["outside_goal"] = trace.outside_goal();
+    json["last_outside_goal"] = or_null(trace.last_outside_goal());
+  }
   if (trace.outcome == Outcome::not_followed) {
     const double steps = static_cast<double>(trace.steps.size()) + trace.followed;
     json["followed_until"] = steps * nearest_double(spec.dynamics.period);
@@ -149,6 +155,30 @@ std::string goal_of_runs_text(const Json& simulation) {
   const std::string when = duration(Json(latest), simulation);
   if (runs == 1) return "reached after " + when;
   return fmt::format("reached by {} of {}, after at most {}", grouped(count), count_of(runs, "run"), when);
+}
+
+/// The greatest of a member of all runs; nothing if it is null in all of them.
+std::optional<std::int64_t> greatest_of_runs(const Json& simulation, const char* member) {
+  std::optional<std::int64_t> greatest;
+  for (const Json& trace : simulation["traces"]) {
+    if (!trace[member].is_null())
+      greatest = std::max(greatest.value_or(0), trace[member].get<std::int64_t>());
+  }
+  return greatest;
+}
+
+/// How often and when last runs are outside the goal, or how long they are between visits.
+std::string lasting_goal_text(const Json& simulation, const ProblemSpec& spec) {
+  if (spec.goal_then == GoalThen::come_back) {
+    const std::optional<std::int64_t> gap = greatest_of_runs(simulation, "longest_gap");
+    return gap ? fmt::format("at most {} between two visits", duration(Json(*gap), simulation))
+               : "not visited twice";
+  }
+  const std::optional<std::int64_t> last = greatest_of_runs(simulation, "last_outside_goal");
+  if (!last) return "never left";
+  return fmt::format("at most {} outside, the last after {}",
+                     count_of(*greatest_of_runs(simulation, "outside_goal"), "sample"),
+                     duration(Json(*last), simulation));
 }
 
 /// How many runs leave the invariance set, and how many of them are to be expected at the most.
@@ -177,7 +207,9 @@ std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
                  {"longest silence", duration(simulation["longest_silence"], simulation)},
                  {"smallest margin", margin_text(simulation["smallest_margin"].get<double>(), spec)}};
   if (is_lossy(simulation)) facts.emplace_back("left", left_text(simulation));
-  if (spec.goal) facts.emplace_back("goal", goal_of_runs_text(simulation));
+  if (spec.goal)
+    facts.emplace_back(
+        "goal", spec.is_goal_lasting() ? lasting_goal_text(simulation, spec) : goal_of_runs_text(simulation));
   if (traces.size() == 1) {
     facts.emplace_back("start", values_text(traces.front()["start"]));
     facts.emplace_back("end", values_text(traces.front()["end"]));

@@ -37,7 +37,7 @@ void leave_only(std::size_t partition, ProblemSpec& spec) {
   spec.network.reset();
   spec.risk.reset();
   spec.silence.reset();
-  if (!spec.ends_at_goal) spec.goal.reset();  // else K rests on it
+  if (!spec.ends_at_goal()) spec.goal.reset();  // else K rests on it
   for (AgentSpec& agent : spec.agents) agent.sees.reset();
   spec.requirements.clear();
   spec.output = {};

@@ -101,7 +101,7 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   const std::optional<TubeLimits> limits = find_tube_limits(context.spec, abstraction, context.ranks);
   context.safe = CellSet(rows, row_length);
   if (limits) context.beyond = CellSet(rows, row_length);
-  if (context.spec.ends_at_goal) context.over = CellSet(rows, row_length);
+  if (context.spec.ends_at_goal()) context.over = CellSet(rows, row_length);
   const auto find_safe = [&](const std::vector<RowShare::Range>& runs) {
     add_cells_that_satisfy(context.spec.safe, context.spec, abstraction.grid, abstraction.inputs, runs, team,
                            context.safe);

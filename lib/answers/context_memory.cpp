@@ -23,7 +23,7 @@ MemoryNeed context_memory(const EngineSizes& sizes, int threads) {
   const ProblemSpec& spec = model.spec();
   MemoryNeed need{.kept = sizes.set() + sizes.hull(),
                   .work = sizes.set() + sizes.condition_of_held(spec.safe)};
-  if (spec.ends_at_goal) {
+  if (spec.ends_at_goal()) {
     need.kept += sizes.set();
     need.work = std::max(need.work, sizes.set() + sizes.condition_of_held(*spec.goal));
   }

@@ -67,6 +67,8 @@ void check_options(const ProblemSpec& spec, const SimulationOptions& options) {
   check_blind(spec, options);
   check_prefer(spec, options.policy);
   if (options.until_goal && !spec.goal) throw UsageError("the spec has no goal", "--until");
+  if (options.until_goal && spec.is_goal_lasting())
+    throw UsageError("runs do not end in a goal to stay at or to return to", "--until");
 }
 
 std::vector<Rational> start_state(const ResultsReader& results, const std::string& text) {

@@ -42,6 +42,27 @@ std::int64_t RunTrace::longest_silence() const {
   return longest;
 }
 
+std::int64_t RunTrace::outside_goal() const {
+  return std::ranges::count_if(samples, [](const Sample& sample) { return !sample.in_goal; });
+}
+
+std::optional<std::int64_t> RunTrace::last_outside_goal() const {
+  for (std::int64_t k = std::ssize(samples); k-- > 0;) {
+    if (!samples[static_cast<std::size_t>(k)].in_goal) return k;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> RunTrace::longest_gap() const {
+  std::optional<std::int64_t> visit, longest;
+  for (std::int64_t k = 0; k < std::ssize(samples); ++k) {
+    if (!samples[static_cast<std::size_t>(k)].in_goal) continue;
+    if (visit) longest = std::max(longest.value_or(0), k - *visit);
+    visit = k;
+  }
+  return longest;
+}
+
 double RunTrace::smallest_margin() const {
   double smallest = std::numeric_limits<double>::infinity();
   const std::size_t count = samples.size() - (outcome == Outcome::left_safely ? 1 : 0);
@@ -58,8 +79,9 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
       margin_(problem.spec->safe),
       slots_(problem.spec->slot_count()),
       delay_(problem.delay()),
-      ends_in_goal_(options.until_goal || problem.spec->ends_at_goal) {
-  if (problem.spec->ends_at_goal) to_aim_ = problem_.values.at(paths::kArrival);
+      ends_in_goal_(options.until_goal || problem.spec->ends_at_goal()) {
+  if (problem.spec->is_goal_lasting()) goal_.emplace(*problem.spec->goal);
+  if (problem.spec->ends_at_goal()) to_aim_ = problem_.values.at(paths::kArrival);
   for (const AnswerPolicy& policy : problem_.policies) {
     if (!policy.aim.path.empty()) to_aim_ = problem_.values.at(policy.aim.path);
   }
@@ -86,7 +108,9 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   std::size_t policy = policy_at(state, trace);
   std::int32_t countdown = begin_countdown(policy, state, trace);
   trace.samples.back().countdown = countdown;
-  const std::int32_t promised = has_aim(policy) ? trace.samples.front().arrival : RunTrace::kForever;
+  const bool is_lasting = problem_.spec->is_goal_lasting();
+  const std::int32_t promised =
+      has_aim(policy) && !is_lasting ? trace.samples.front().arrival : RunTrace::kForever;
   for (std::int64_t k = 0; k < options_.steps; ++k) {
     if (is_at_end(trace)) {
       trace.outcome = Outcome::reached_goal;
@@ -97,7 +121,8 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     next_.begin(state.exact, nature.disturbance, nature.error, state.place.cell);
     // Agents that coordinate follow the policy that holds here, whichever countdown ended here.
     if (coordinated) policy = policy_at(state, trace);
-    if (has_aim(policy) && trace.arrived) policy = 0;
+    if (is_through(policy, trace)) policy = 0;
+    const bool is_aimed = is_lasting && has_aim(policy);
     const std::optional<std::int64_t> u = chooser_.choose(
         state.place.cell, state.measured, {.policy = policy, .countdown = countdown}, next_, actions);
     if (!u) {
@@ -133,7 +158,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
       trace.outcome = Outcome::left_invariant;
       return trace;
     }
-    if (!trace.arrived && k + 1 >= promised) {
+    if ((!trace.arrived && k + 1 >= promised) || (is_aimed && !is_step_of_aim(trace))) {
       trace.outcome = Outcome::late;
       return trace;
     }
@@ -145,8 +170,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
 std::size_t ClosedLoop::policy_at(const State& state, const RunTrace& trace) {
   if (state.place.kind != Kind::cell) return 0;
   std::size_t policy = problem_.policies.size() - 1;
-  while (policy > 0 && ((has_aim(policy) && trace.arrived) || !chooser_.holds(policy, state.place.cell)))
-    --policy;
+  while (policy > 0 && (is_through(policy, trace) || !chooser_.holds(policy, state.place.cell))) --policy;
   return policy;
 }
 
@@ -156,6 +180,14 @@ std::int32_t ClosedLoop::begin_countdown(std::size_t policy, const State& state,
   if (problem_.policies[policy].is_on_request) return 0;  // nobody has agreed on anything yet
   const std::span<const std::int32_t> delay = problem_.values.at(problem_.policies[policy].delay);
   return reset_countdown(delay[static_cast<std::size_t>(state.place.cell)]);
+}
+
+/// Whether the last step was one of P, as far as arrival says.
+bool ClosedLoop::is_step_of_aim(const RunTrace& trace) const {
+  const std::int32_t before = trace.samples[trace.samples.size() - 2].arrival;
+  const std::int32_t after = trace.samples.back().arrival;
+  if (problem_.spec->goal_then == GoalThen::stay) return after <= before;
+  return before == 0 ? after != RunTrace::kForever && after >= 0 : after < before;
 }
 
 /// @pre it has left through `goal` or `safe` sides alone
@@ -235,14 +267,17 @@ RunTrace::Sample ClosedLoop::sample(const State& state) {
   RunTrace::Sample result{.state = nearest_doubles(state.exact), .measured = nearest_doubles(state.measured)};
   for (std::size_t i = 0; i < state.exact.size(); ++i) slots_[problem_.spec->state_slot(i)] = state.exact[i];
   result.margin = margin_.value(slots_);
+  if (goal_ && state.place.kind != Kind::left_safely) result.in_goal = goal_->value(slots_) >= 0;
   if (state.place.kind == Kind::cell) {
     result.delay = delay_[static_cast<std::size_t>(state.place.cell)];
   } else {
     result.delay = state.place.kind == Kind::left_safely ? RunTrace::kForever : DelayLayers::kOutsideSafe;
   }
+  if (goal_ && state.place.kind == Kind::left_safely) result.in_goal = is_beyond_goal_side(state);
   if (to_aim_.empty()) return result;
   if (state.place.kind == Kind::cell) {
     result.arrival = to_aim_[static_cast<std::size_t>(state.place.cell)];
+    result.in_goal = result.in_goal || (goal_ && result.arrival == 0);
   } else {
     const bool is_there = state.place.kind == Kind::left_safely && is_beyond_goal_side(state);
     result.arrival = is_there ? 0 : RunTrace::kForever;

@@ -61,6 +61,7 @@ struct RunTrace {
     /// Delay of the cell in steps, as LoopProblem has it; kForever in T, kOutsideSafe beyond an unsafe side.
     std::int32_t delay = 0;
     std::int32_t arrival = 0;  ///< those to the aim likewise, if there is one; 0 beyond a `goal` side
+    bool in_goal = false;      ///< of a lasting goal: the condition holds, or the cell says so
     /// i of Definition 3: steps that the agents still go on without coordination. kForever where they never
     /// need any.
     std::int32_t countdown = 0;
@@ -79,6 +80,11 @@ struct RunTrace {
   [[nodiscard]] std::int64_t coordinated_steps() const;
   /// The most steps in a row without coordination.
   [[nodiscard]] std::int64_t longest_silence() const;
+  /// Of a lasting goal: the samples outside it.
+  [[nodiscard]] std::int64_t outside_goal() const;
+  [[nodiscard]] std::optional<std::int64_t> last_outside_goal() const;
+  /// The most steps between two visits that follow each other; nothing if there are not two.
+  [[nodiscard]] std::optional<std::int64_t> longest_gap() const;
   /// The smallest margin of the samples, without one that has left safely; infinity if there is none.
   [[nodiscard]] double smallest_margin() const;
 };
@@ -93,7 +99,8 @@ struct RunTrace {
 /// That is the policy of the delays. Where a countdown begins in a cell in which another policy holds, it is
 /// that one's, and so is what the agents act from. If it has an aim, it is followed until that is reached;
 /// a run that begins with it is there within the steps that its start has. (On the way to a goal, contract,
-/// section 5: approach delay, P and IND_P, within arrival(start) steps.)
+/// section 5: approach delay, P and IND_P, within arrival(start) steps.) An aim that lasts, of a goal to stay
+/// at or to return to, is followed for ever; what its policy promises of each step is looked at (section 11).
 ///
 /// On a network that loses steps (LoopProblem::network) agents act by the mode of each step: from C if all
 /// are connected, else from IND_C of those that are. A run that leaves K is no contradiction then.
@@ -142,6 +149,11 @@ class ClosedLoop {
   [[nodiscard]] std::int32_t begin_countdown(std::size_t policy, const State& state,
                                              const RunTrace& trace) const;
   [[nodiscard]] bool has_aim(std::size_t policy) const { return !problem_.policies[policy].aim.path.empty(); }
+  /// Nothing more follows from its aim.
+  [[nodiscard]] bool is_through(std::size_t policy, const RunTrace& trace) const {
+    return has_aim(policy) && !problem_.policies[policy].aim.lasts && trace.arrived;
+  }
+  [[nodiscard]] bool is_step_of_aim(const RunTrace& trace) const;
   [[nodiscard]] bool is_beyond_goal_side(const State& state) const;
 
   LoopProblem problem_;
@@ -151,6 +163,7 @@ class ClosedLoop {
   ActionChooser chooser_;
   NextStates next_;
   Margin margin_;
+  std::optional<Margin> goal_;  ///< one that lasts
   std::vector<Rational> slots_;
   std::span<const std::int32_t> delay_;
   std::span<const std::int32_t> to_aim_;                       ///< [cells] steps; empty: there is no aim

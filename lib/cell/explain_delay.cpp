@@ -84,7 +84,7 @@ class Explainer {
 
   /// A goal that ends the task is reached there.
   [[nodiscard]] bool is_over(std::int64_t cell) {
-    return results_.spec().ends_at_goal && controller_.values(paths::kArrival, partition_)(cell) == 0;
+    return results_.spec().ends_at_goal() && controller_.values(paths::kArrival, partition_)(cell) == 0;
   }
 
   [[nodiscard]] ResultPath way_out(std::int64_t cell, const std::vector<Rational>& state) const {

@@ -163,7 +163,7 @@ void LogJudge::take_actions(JudgedRow& row) {
 
 /// A goal that ends the task is reached there: what follows does not matter.
 bool LogJudge::is_over(std::int64_t cell) {
-  return results_.spec().ends_at_goal && controller_.values(paths::kArrival, partition_)(cell) == 0;
+  return results_.spec().ends_at_goal() && controller_.values(paths::kArrival, partition_)(cell) == 0;
 }
 
 /// Judges the actions by the cells of K that the state may be in; outside K there is no promise.

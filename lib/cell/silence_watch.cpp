@@ -31,7 +31,8 @@ SilenceWatch::SilenceWatch(const ResultsReader& results, std::size_t partition, 
   };
   for (const AnswerPolicy& policy : policies_) {
     steps_.push_back(values(policy.delay, partition));
-    aims_.push_back(policy.aim.path.empty() ? CellValue() : values(policy.aim.path, std::nullopt));
+    const bool ends = !policy.aim.path.empty() && !policy.aim.lasts;
+    aims_.push_back(ends ? values(policy.aim.path, std::nullopt) : CellValue());
   }
   left_.resize(policies_.size());
 }

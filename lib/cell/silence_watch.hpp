@@ -57,7 +57,7 @@ class SilenceWatch {
   std::int64_t connection_delay_;
   std::vector<AnswerPolicy> policies_;  ///< of the loop, that of the delays first
   std::vector<CellValue> steps_;        ///< [policy]
-  std::vector<CellValue> aims_;         ///< [policy]; of those without an aim none
+  std::vector<CellValue> aims_;         ///< [policy]; of those without an aim that can be reached none
   std::vector<Steps> left_;             ///< [policy] of the countdown; nothing: there is none
   bool has_arrived_ = false;
 };

@@ -112,7 +112,7 @@ std::vector<std::string> loop_paths(const ProblemSpec& spec, const std::vector<A
   }
   // Runs end in such a goal, whatever agents go by.
   const std::string arrival = coordreq::paths::kArrival;
-  if (spec.ends_at_goal && std::ranges::find(paths, arrival) == paths.end()) paths.push_back(arrival);
+  if (spec.ends_at_goal() && std::ranges::find(paths, arrival) == paths.end()) paths.push_back(arrival);
   return paths;
 }
 

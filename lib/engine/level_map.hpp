@@ -31,6 +31,10 @@ class LevelMap {
   [[nodiscard]] LevelRows<Level>* get_if() {
     return std::get_if<LevelRows<Level>>(&rows_);
   }
+  template <class Level>
+  [[nodiscard]] const LevelRows<Level>* get_if() const {
+    return std::get_if<LevelRows<Level>>(&rows_);
+  }
 
   [[nodiscard]] std::int64_t rows() const {
     return visit([](const auto& levels) { return levels.rows(); });

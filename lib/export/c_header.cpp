@@ -82,7 +82,7 @@ class HeaderWriter {
     write_runs();
     write_sets();
     put(c_header::kFunctions);
-    if (results_.spec().ends_at_goal) put(c_header::kOver);
+    if (results_.spec().ends_at_goal()) put(c_header::kOver);
     for (std::size_t k = 1; k < runs_.policies.size(); ++k) write_functions(runs_.policies[k]);
     if (has_tables) write_silent();
     sink_(c_header::kClosing);
@@ -146,7 +146,7 @@ class HeaderWriter {
     integers(unsigned_type(runs_.entries.size()), "entry", runs_.entry_of);
     sink_("/* By entry; sets: one a class. */\n");
     for (std::size_t k = 0; k < runs_.policies.size(); ++k) write_entries(k);
-    if (!results_.spec().ends_at_goal) return;
+    if (!results_.spec().ends_at_goal()) return;
     sink_("/* Whether the task is over. */\n");
     array("uint8_t", "entry_over", runs_.entries,
           [](const ActionRuns::Entry& entry) { return entry.is_over ? "1" : "0"; });

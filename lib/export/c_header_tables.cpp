@@ -70,7 +70,7 @@ class RunFinder {
     const Steps delays = read(&AnswerPolicy::delay, begin, end),
                 triggers = read(&AnswerPolicy::countdown, begin, end);
     std::vector<std::int32_t> arrivals;
-    if (results_.spec().ends_at_goal)
+    if (results_.spec().ends_at_goal())
       arrivals = results_.stretch(
           begin, end, [this](const CellBlock& block) { return results_.values(paths::kArrival, block); });
     for (std::int64_t cell = begin; cell < end; ++cell) {

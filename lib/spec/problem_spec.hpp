@@ -76,7 +76,7 @@ struct ProblemSpec : SystemSpec {
   std::vector<MemorySpec> memory;  ///< in the order of the spec
   Program safe;                    ///< a condition over states
   std::optional<Program> goal;     ///< likewise
-  bool ends_at_goal = false;       ///< the goal's cells count as T: `"then": "over"`
+  GoalThen goal_then = GoalThen::safe;
   ControllerSpec controller;
   CoordinationSpec coordination;
   std::optional<NetworkSpec> network;
@@ -84,6 +84,13 @@ struct ProblemSpec : SystemSpec {
   std::optional<SilenceSpec> silence;
   std::vector<RequirementSpec> requirements;
   OutputSpec output;
+
+  /// The goal's cells count as T.
+  [[nodiscard]] bool ends_at_goal() const { return goal_then == GoalThen::over; }
+  /// The goal is one to stay at or to return to, and says what agents do in it (contract, section 11).
+  [[nodiscard]] bool is_goal_lasting() const {
+    return goal_then == GoalThen::stay || goal_then == GoalThen::come_back;
+  }
 };
 
 }  // namespace coordreq

@@ -56,11 +56,19 @@ bool contains_word(std::string text, std::string_view word) {
   return false;
 }
 
+/// @pre unchecked: the schema knows the word
+GoalThen then_of(const std::string& word) {
+  for (const GoalThen then : {GoalThen::over, GoalThen::stay, GoalThen::come_back}) {
+    if (word == goal_then_name(then)) return then;
+  }
+  return GoalThen::safe;
+}
+
 /// A condition alone, or with what comes after arrival.
 void read_goal(const Scope& scope, const Node& goal, ProblemSpec& spec) {
   const bool has_then = goal.is_object();
   spec.goal = scope.expression(has_then ? goal["where"] : goal, ExpectedType::condition, Over::states);
-  spec.ends_at_goal = has_then && goal["then"].text() == "over";
+  if (has_then) spec.goal_then = then_of(goal["then"].text());
 }
 
 /// All parts but the first few; a part that rests on another one is only read if that one is right.
@@ -176,6 +184,20 @@ std::int32_t index_of_name(const Node& name, const std::vector<std::string>& kno
 void check_new_name(const Node& name, const std::vector<std::string>& known, const std::string& kind) {
   if (std::find(known.begin(), known.end(), name.text()) == known.end()) return;
   throw SpecError(fmt::format("the {} {} is listed twice", kind, quote_text(name.text())), name.pointer());
+}
+
+std::string goal_then_name(GoalThen then) {
+  switch (then) {
+    case GoalThen::over:
+      return "over";
+    case GoalThen::stay:
+      return "stay";
+    case GoalThen::come_back:
+      return "return";
+    case GoalThen::safe:
+      break;
+  }
+  return "safe";
 }
 
 ProblemSpec read_spec(std::string text, std::string_view source) {

@@ -33,6 +33,9 @@ enum class Time : std::uint8_t { continuous, discrete };
 enum class Cells : std::uint8_t { closed, half_open };
 enum class Membership : std::uint8_t { inner, center };
 enum class Synthesis : std::uint8_t { maximal, given };
+/// What follows the arrival at a goal: nothing but safety, the end of the task, staying there, or visits
+/// again and again.
+enum class GoalThen : std::uint8_t { safe, over, stay, come_back };
 enum class NetworkKind : std::uint8_t { automaton, delay, burst, weakly_hard, loss };
 enum class RequirementKind : std::uint8_t {
   min_delay,
@@ -44,6 +47,8 @@ enum class RequirementKind : std::uint8_t {
   min_silence
 };
 
+/// The value of the key `then`.
+[[nodiscard]] std::string goal_then_name(GoalThen then);
 /// The key of the spec that stands for it, "automaton" for `modes`.
 [[nodiscard]] std::string network_kind_name(NetworkKind kind);
 /// The key of the spec that stands for it.

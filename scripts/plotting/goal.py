@@ -20,12 +20,15 @@ _TEXTS = ("not safe", "safe, not invariant", "goal cannot be forced", "unbounded
 _FEW = 0.02
 _FAR = 3
 _LABELS = "silence", "steps to the goal"
+# Of the way: what the cells hold, by what follows arrival.
+_WAYS = {"stay": "samples outside the goal", "return": "time to the next visit"}
 _FEW_LINES = 12  # of more steps than that lines are drawn at some
 
 
 @dataclass(frozen=True)
 class Panel:
     title: str
+    counts: str  # "steps" or "samples"
     way: bool  # steps of a way, and not of silence
     kinds: np.ndarray  # [x, y]
     steps: np.ndarray  # masked where `kinds` says all
@@ -62,14 +65,15 @@ def prepare(arguments):
         raise FileError('no /arrival in the file: analyse with a "goal"', results.path)
     partition = results.partition(arguments.partition)
     cut = make_cut(results, arguments, directions=2, fewest=1)
+    then = results.spec.goal_then
     panels = [
-        _panel("time to the goal", True, cut.read("/arrival"), results.flags("/arrival")),
-        _panel("silence that costs no time", False, cut.read("/approach_delay", partition), results.flags("/approach_delay")),
+        _panel(_WAYS.get(then, "time to the goal"), "samples" if then == "stay" else "steps", True, cut.read("/arrival"), results.flags("/arrival")),
+        _panel("silence that costs no time", "steps", False, cut.read("/approach_delay", partition), results.flags("/approach_delay")),
     ]
     return Goal(cut, results.partitions[partition], panels)
 
 
-def _panel(title, way, values, flags):
+def _panel(title, counts, way, values, flags):
     values = values.reshape(len(values), -1).astype(int)
     kinds = np.full(values.shape, -1)
     kinds[values == flags["not_safe"]] = NOT_SAFE
@@ -77,7 +81,7 @@ def _panel(title, way, values, flags):
     kinds[values == flags["goal_cannot_be_forced"]] = NO_WAY
     if "unbounded" in flags:
         kinds[values == flags["unbounded"]] = FREE
-    return Panel(title, way, kinds, np.ma.masked_where(kinds >= 0, values))
+    return Panel(title, counts, way, kinds, np.ma.masked_where(kinds >= 0, values))
 
 
 def _lines(axes, panel, cut):
@@ -93,14 +97,17 @@ def draw(goal, size=None):
         style.kind_image(axes, panel.kinds, _COLORS, style.extent_of(cut))
         style.step_image(axes, panel.steps, panel.shown, style.extent_of(cut), panel.way)
         style.label_plane(axes, cut)
-        most = results.seconds(panel.most)
+        most = results.seconds(panel.most) if panel.counts == "steps" else panel.most
         axes.set_title(f"{panel.title}\nup to {most}" if panel.steps.count() else panel.title)
     for axes in grid.flat:
         axes.label_outer()
     for axes, panel in zip(grid.flat, goal.panels):
         if panel.steps.count():
             lines = _lines(axes, panel, cut) if panel.shown > _FEW_LINES else None
-            bar = style.add_step_bar(figure, axes, panel.shown, _LABELS[panel.way], results, is_cut=panel.shown < panel.most, way=panel.way)
+            label = _LABELS[panel.way] if panel.counts == "steps" else "outside the goal"
+            bar = style.add_step_bar(
+                figure, axes, panel.shown, label, results, is_cut=panel.shown < panel.most, way=panel.way, unit=panel.counts
+            )
             if lines is not None:
                 bar.add_lines(lines)
     style.add_title(figure, f"{results.title}, {goal.partition}", cut.title)

@@ -44,6 +44,12 @@ class Spec:
             raise FileError(f"the spec in the file is no JSON: {error}", path) from error
         self._constants = self._evaluated(self._keys.get("constants", {}))
 
+    @property
+    def goal_then(self):
+        """What follows arrival at the goal."""
+        goal = self._keys.get("goal")
+        return goal["then"] if isinstance(goal, dict) else "safe"
+
     def _evaluated(self, constants):
         """Constants may use one another in any order."""
         self._constants = {}

@@ -53,10 +53,11 @@ def whole_steps(most, ticks=10):
     return [int(k) for k in MaxNLocator(ticks, integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
 
 
-def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02, is_cut=False, way=False):
+def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02, is_cut=False, way=False, unit="steps"):
     """A colour bar for steps, with times on its other side if the file has a unit of time.
 
     @param is_cut whether there are more steps, in the last colour
+    @param unit what is counted, if not steps
     """
     cmap, norm = step_colors(most, way)
     place = {"location": location, "shrink": shrink, "fraction": 0.06, "pad": pad}
@@ -65,8 +66,8 @@ def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.
     steps = whole_steps(most)
     bar.ax.yaxis.set_major_locator(FixedLocator(steps))
     bar.ax.minorticks_off()
-    bar.set_label(plain(f"{label} [steps]"))
-    if results.period_unit:
+    bar.set_label(plain(f"{label} [{unit}]"))
+    if results.period_unit and unit == "steps":
         period = results.period
         other = "left" if location == "right" else "right"
         times = bar.ax.secondary_yaxis(other, functions=(lambda k: k * period, lambda t: t / period))

@@ -79,7 +79,7 @@ void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const P
 std::string draw_blind_problem() {
   const RandomTime time = *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
   const RandomAgents agents = *rc::gen::element(RandomAgents::few, RandomAgents::many);
-  return with_sight(perhaps_with_end(draw_problem(time, RandomEdges::any, agents)));
+  return with_sight(perhaps_with_goal(draw_problem(time, RandomEdges::any, agents)));
 }
 
 TEST(BlindSilence, RowsAndSinglePairsGiveTheSameBits) {
@@ -226,7 +226,7 @@ class SilentRuns {
 TEST(BlindSilence, KeepsItsPromiseWhateverAgentsChoose) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("all silent runs are safe and end in K", [&] {
-    const ProblemSpec spec = read_spec(with_sight(perhaps_with_end(draw_problem())), "random");
+    const ProblemSpec spec = read_spec(with_sight(perhaps_with_goal(draw_problem())), "random");
     RC_PRE(spec.coordination.partitions.front().classes.size() > 1U);
     const FastAnalysis fast(spec, team);
     SilentRuns runs(spec, fast, 0);

@@ -53,7 +53,7 @@ std::string draw_any_kind() {
     case 1:
       return draw_problem(RandomTime::any, RandomEdges::any, RandomAgents::many);
     case 2:
-      return perhaps_with_end(draw_problem());
+      return perhaps_with_goal(draw_problem());
     case 3:
       return storing_everything(draw_problem());
     default:

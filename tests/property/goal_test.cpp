@@ -28,7 +28,7 @@ namespace {
 
 /// A random problem with a goal; some of its `safe` sides are `goal` sides. Most cells are half open: in
 /// closed ones a step of one cell does not come nearer.
-std::string draw_goal_problem(RandomTime time) {
+std::string draw_goal_problem(RandomTime time, const std::vector<std::string>& thens = {"safe", "over"}) {
   const RandomAgents agents = *rc::gen::element(RandomAgents::few, RandomAgents::many);
   nlohmann::json spec = nlohmann::json::parse(draw_problem(time, RandomEdges::any, agents));
   if (*rc::gen::inRange(0, 5) > 0) spec["abstraction"]["cells"] = "half_open";
@@ -38,7 +38,8 @@ std::string draw_goal_problem(RandomTime time) {
       spec["disturbances"].push_back({{"name", "w"}, {"lower", 0}, {"upper", 0}});
   }
   spec["goal"] = draw_goal(spec["states"]);
-  if (*rc::gen::inRange(0, 2) == 0) spec["goal"] = {{"where", spec["goal"]}, {"then", "over"}};
+  const std::string then = *rc::gen::elementOf(thens);
+  if (then != "safe") spec["goal"] = {{"where", spec["goal"]}, {"then", then}};
   const int share = *rc::gen::inRange(0, 3);
   for (nlohmann::json& state : spec["states"]) {
     if (!state.contains("outside") || !state["outside"].is_object()) continue;
@@ -148,7 +149,7 @@ void expect_goal(const ProblemSpec& spec, ThreadTeam& team) {
   const CellSet satisfying =
       cells_that_satisfy(*spec.goal, spec, fast.abstraction.grid, fast.abstraction.inputs, team);
   const PlainAnalysis safety = plainly(spec, fast);
-  if (spec.ends_at_goal) expect_agreement(fast, safety, team);
+  if (spec.ends_at_goal()) expect_agreement(fast, safety, team);
   const PlainGoal plain =
       reach_goal_plainly(spec, fast.abstraction, members(fast.safe), members(fast.beyond.value_or(fast.safe)),
                          safety, members(satisfying));
@@ -160,12 +161,18 @@ void expect_goal(const ProblemSpec& spec, ThreadTeam& team) {
     RC_ASSERT(goal.approach[p].fixed_point_index == plain.partitions[p].fixed_point_index);
     RC_ASSERT(goal.approach[p].truncated == plain.partitions[p].truncated);
   }
+  RC_ASSERT(goal.returns.forced == plain.longest_return);
+  RC_ASSERT(goal.returns.any_way == plain.longest_gap);
+  bool some_not_kept = false;
+  for (std::size_t x = 0; x < plain.arrival.size(); ++x)
+    some_not_kept = some_not_kept || (plain.arrival[x] > 0 && goal.cells.test(static_cast<std::int64_t>(x)));
+  RC_CLASSIFY(some_not_kept, "cells of the goal that do not count as arrived");
   RC_CLASSIFY(goal.away.count() > 0, "cells that come nearer");
   RC_CLASSIFY(longest_arrival(goal.nearness, team).value_or(0) > 2, "more than two steps to the goal");
   RC_CLASSIFY(goal.approach[0].sizes.size() > 1, "more than one approach layer");
   RC_CLASSIFY(has_safe_side(spec), "a safe side");
   RC_CLASSIFY(goal.approach[0].truncated, "truncated");
-  if (!spec.ends_at_goal) return;
+  if (!spec.ends_at_goal()) return;
   expect_reach_avoid(spec, fast, safety);
   const std::vector<bool> over = members(goal.cells);
   bool some_blocked = false;
@@ -174,6 +181,14 @@ void expect_goal(const ProblemSpec& spec, ThreadTeam& team) {
     some_blocked = some_blocked || (over[x] && std::find(own.begin(), own.end(), true) == own.end());
   }
   RC_CLASSIFY(some_blocked, "cells of the goal without an action");
+}
+
+TEST(Goals, ToStayAtAndToReturnToAreThoseOfNestedLoops) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("lasting goals of the row engine equal those of the plain one", [&] {
+    const RandomTime time = *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
+    expect_goal(read_spec(draw_goal_problem(time, {"stay", "return"}), "random"), team);
+  }));
 }
 
 TEST(Goals, RowsAndSinglePairsGiveTheSameBits) {

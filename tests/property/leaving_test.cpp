@@ -94,7 +94,7 @@ TEST(Leaving, IsWhatTheDefinitionSays) {
     const RandomTime time = *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
     std::string problem = draw_problem(time, RandomEdges::any,
                                        *rc::gen::arbitrary<bool>() ? RandomAgents::many : RandomAgents::few);
-    if (*rc::gen::inRange(0, 3) == 0) problem = perhaps_with_end(problem);
+    if (*rc::gen::inRange(0, 3) == 0) problem = perhaps_with_goal(problem);
     expect_same_leaving(read_spec(problem, "random"), team);
   }));
 }

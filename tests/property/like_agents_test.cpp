@@ -67,7 +67,7 @@ TEST(LikeAgents, GiveTheSameInWhateverOrder) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("one order of like agents stands for all", [&] {
     const ProblemSpec spec = read_spec(
-        *rc::gen::inRange(0, 3) > 0 ? draw_like_agents() : perhaps_with_end(draw_like_agents()), "alike");
+        *rc::gen::inRange(0, 3) > 0 ? draw_like_agents() : perhaps_with_goal(draw_like_agents()), "alike");
     std::vector<std::size_t> order(spec.states.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     if (*rc::gen::arbitrary<bool>()) order = Model(spec, table_shapes(spec)).order();

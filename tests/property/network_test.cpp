@@ -159,7 +159,7 @@ class PlainRuleModes {
 TEST(Network, AgreesWhereAgentsActByRules) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("row engine equals plain engine", [&] {
-    const std::string text = with_silence(perhaps_with_end(draw_problem()));
+    const std::string text = with_silence(perhaps_with_goal(draw_problem()));
     std::string network = draw_network(text, false);
     network.replace(network.rfind('}'), 1, R"(, "actions": "silence"})");
     const ProblemSpec spec = read_spec(with_network(text, network), "random");
@@ -178,7 +178,7 @@ TEST(Network, AgreesWhereAgentsActByRules) {
 TEST(Network, AgreesWhereAGoalEndsTheTask) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("row engine equals plain engine, and the goal is in every mode", [&] {
-    const std::string text = perhaps_with_end(draw_problem());
+    const std::string text = perhaps_with_goal(draw_problem());
     const ProblemSpec spec =
         read_spec(with_network(text, draw_network(text, *rc::gen::arbitrary<bool>())), "random");
     const FastAnalysis fast(spec, team);

@@ -156,7 +156,7 @@ TEST(Resumed, BlindLayersAreTheSameFromAnyStep) {
 TEST(Resumed, SilenceIsTheSameFromAnyStep) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("the layers of agents that do what they are told", [&] {
-    const ProblemSpec spec = read_spec(with_silence(perhaps_with_end(draw_problem())), "random");
+    const ProblemSpec spec = read_spec(with_silence(perhaps_with_goal(draw_problem())), "random");
     const FastAnalysis fast(spec, team);
     const CellSet& set = silence_set(*fast.answers);
     const CellSet* const over = fast.answers->context.over_or_null();

@@ -75,7 +75,7 @@ Json draw_numbers(const ProblemSpec& spec) {
 /// A random problem with a network of numbers, and a risk. @param horizon less than 1: random
 ProblemSpec draw_risky(int horizon, bool any) {
   Json spec = Json::parse(
-      perhaps_with_end(draw_problem(draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any)));
+      perhaps_with_goal(draw_problem(draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any)));
   spec["network"] = draw_numbers(read_spec(spec.dump(), "random"));
   spec["risk"]["horizon"] = horizon < 1 ? draw(1, 5) : horizon;
   const bool is_given = spec["controller"].value("synthesis", "maximal") == "given";

@@ -76,7 +76,7 @@ void expect_same_silence(const ProblemSpec& spec, const FastAnalysis& fast, cons
 std::string draw_silence_problem() {
   const RandomTime time = *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
   const RandomAgents agents = *rc::gen::element(RandomAgents::few, RandomAgents::many);
-  return with_silence(perhaps_with_end(draw_problem(time, RandomEdges::any, agents)));
+  return with_silence(perhaps_with_goal(draw_problem(time, RandomEdges::any, agents)));
 }
 
 TEST(Silence, RowsAndSinglePairsGiveTheSameBits) {
@@ -110,7 +110,7 @@ TEST(Silence, AgreesOnAnySums) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("silence on hand-made sums", [&] {
     const ProblemSpec spec = read_spec(
-        with_silence(perhaps_with_end(draw_problem(RandomTime::any, RandomEdges::plain))), "random");
+        with_silence(perhaps_with_goal(draw_problem(RandomTime::any, RandomEdges::plain))), "random");
     RC_PRE(spec.states.size() > 1);
     Abstraction abstraction = build_abstraction(spec, team);
     draw_sums(abstraction);
@@ -188,7 +188,7 @@ class ToldRuns {
 TEST(Silence, KeepsItsPromiseWhateverAgentsChoose) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("all runs of silent agents are safe, and so is what comes after", [&] {
-    const ProblemSpec spec = read_spec(with_silence(perhaps_with_end(draw_problem())), "random");
+    const ProblemSpec spec = read_spec(with_silence(perhaps_with_goal(draw_problem())), "random");
     const FastAnalysis fast(spec, team);
     const PlainSilence plain = plain_silence(spec, fast);
     const std::vector<std::int32_t> silence = silence_values(fast, silence_of(*fast.answers, 0).layers);

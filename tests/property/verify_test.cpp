@@ -22,13 +22,26 @@ T& draw_one_of(std::vector<T>& values) {
 TEST(Verify, ResultsOfRandomSystemsHold) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("what analyze writes holds", [&] {
-    std::string text = draw(0, 1) == 0 ? draw_problem() : perhaps_with_end(draw_problem());
+    std::string text = draw(0, 1) == 0 ? draw_problem() : perhaps_with_goal(draw_problem());
     if (draw(0, 2) == 0) text = with_sight(text);
     if (draw(0, 2) == 0) text = with_silence(text);
     const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
     const Verification result = verify_file(file, {.budget_seconds = 0.1}, team);
     RC_LOG(complaints(result));
     RC_CLASSIFY(result.basis == PostBasis::exact, "exact");
+    RC_ASSERT(result.holds());
+  }));
+}
+
+TEST(Verify, LastingGoalsOfRandomSystemsHoldWholly) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("what analyze writes of goals to stay at and to return to holds", [&] {
+    nlohmann::json spec = nlohmann::json::parse(draw_problem());
+    spec["goal"] = {{"where", draw_goal(spec["states"])},
+                    {"then", *rc::gen::element<std::string>("stay", "return")}};
+    const ClaimedFile file = analysed_file(storing_everything(spec.dump()), team);
+    const Verification result = verify_file(file, {.full = true}, team);
+    RC_LOG(complaints(result));
     RC_ASSERT(result.holds());
   }));
 }

@@ -97,7 +97,7 @@ Json draw_problem_of_any_kind() {
   const RandomTime time = draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any;
   const RandomAgents agents = draw(0, 3) == 0 ? RandomAgents::many : RandomAgents::few;
   Json spec = Json::parse(draw_problem(time, RandomEdges::any, agents));
-  if (draw(0, 2) == 0) spec = Json::parse(perhaps_with_end(spec.dump()));
+  if (draw(0, 2) == 0) spec = Json::parse(perhaps_with_goal(spec.dump()));
   if (draw(0, 2) == 0) spec = Json::parse(with_sight(spec.dump()));
   if (draw(0, 2) == 0) spec = Json::parse(with_silence(spec.dump()));
   for (const char* part : {"controller", "actions", "layers", "abstraction"})
@@ -168,7 +168,7 @@ TEST(ManyRanks, CountCellsInWhichSilentAgentsHaveNothingToDo) {
   const Folder folder;
   EXPECT_TRUE(rc::check("agents that do what they are told", [&] {
     const bool is_alike = draw(0, 3) == 0;
-    Json spec = Json::parse(with_silence(perhaps_with_end(is_alike ? draw_like_agents() : draw_problem())));
+    Json spec = Json::parse(with_silence(perhaps_with_goal(is_alike ? draw_like_agents() : draw_problem())));
     const bool is_one = spec["agents"].size() == 1;
     if (!is_one && draw(0, 2) == 0) {
       spec["network"] = {{"loss", 0.125}};
@@ -181,7 +181,7 @@ TEST(ManyRanks, CountCellsInWhichSilentAgentsHaveNothingToDo) {
 TEST(ManyRanks, WorkOutAllOrdersOfAgentsThatAreAlike) {
   const Folder folder;
   EXPECT_TRUE(rc::check("agents that are alike", [&] {
-    Json spec = Json::parse(draw(0, 2) > 0 ? draw_like_agents() : perhaps_with_end(draw_like_agents()));
+    Json spec = Json::parse(draw(0, 2) > 0 ? draw_like_agents() : perhaps_with_goal(draw_like_agents()));
     // With all partitions few agents can change places in each of them.
     if (draw(0, 2) > 0) spec["coordination"].erase("partitions");
     // Then rows run along the last state, which is often none of an agent.

@@ -32,7 +32,7 @@ inline PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast,
                              const PackedPairs* listed = nullptr) {
   const std::vector<bool> safe = members(fast.safe);
   std::vector<bool> over;
-  if (spec.ends_at_goal) {
+  if (spec.ends_at_goal()) {
     ThreadTeam team(1);
     over =
         members(cells_that_satisfy(*spec.goal, spec, fast.abstraction.grid, fast.abstraction.inputs, team));

@@ -31,8 +31,11 @@ class GoalFinder {
   }
 
   PlainGoal run() {
-    find_arrival();
+    if (spec_.goal_then == GoalThen::stay) find_stay();
+    if (spec_.goal_then == GoalThen::come_back) keep_lasting_visits();
+    if (spec_.goal_then != GoalThen::stay) find_arrival();
     find_progress();
+    if (spec_.goal_then == GoalThen::come_back) find_longest();
     for (std::size_t p = 0; p < spec_.coordination.partitions.size(); ++p) find_approach(p);
     return result_;
   }
@@ -55,11 +58,78 @@ class GoalFinder {
     return set;
   }
 
+  /// {v <= 0}, {v <= 1}, ...: each the greatest of its kind.
+  void find_stay() {
+    for (std::int64_t x = 0; x < cells_; ++x)
+      result_.arrival.push_back(plain_.invariant[at(x)] ? INT32_MAX : safe_[at(x)] ? -1 : -2);
+    Set before(at(cells_), false);
+    for (std::int32_t n = 0;; ++n) {
+      Set own = plain_.invariant;
+      for (bool changed = true; changed;) {
+        const Set old = own;
+        for (std::int64_t x = 0; x < cells_; ++x)
+          own[at(x)] = old[at(x)] && (goal_[at(x)] ? forces(x, old) : n > 0 && forces(x, before));
+        changed = own != old;
+      }
+      if (n > 0 && own == before) return;
+      for (std::int64_t x = 0; x < cells_; ++x) {
+        if (own[at(x)] && !before[at(x)]) result_.arrival[at(x)] = n;
+      }
+      before = own;
+    }
+  }
+
+  /// Leaves in G the cells of W: those of the greatest Y from each cell of which a cell of G that can keep
+  /// within Y can be forced, within Y.
+  void keep_lasting_visits() {
+    Set whole = plain_.invariant;
+    while (true) {
+      Set reached(at(cells_), false);
+      for (bool changed = true; changed;) {
+        changed = false;
+        for (std::int64_t x = 0; x < cells_; ++x) {
+          if (!whole[at(x)] || reached[at(x)]) continue;
+          if (!(goal_[at(x)] && forces(x, whole)) && !forces(x, reached)) continue;
+          reached[at(x)] = changed = true;
+        }
+      }
+      if (reached == whole) break;
+      whole = reached;
+    }
+    for (std::int64_t x = 0; x < cells_; ++x) visits_.push_back(goal_[at(x)] && whole[at(x)]);
+  }
+
+  void find_longest() {
+    for (std::int64_t x = 0; x < cells_; ++x) {
+      if (result_.arrival[at(x)] != 0) continue;
+      std::int32_t least = INT32_MAX, greatest = 0;
+      for (std::int64_t u = 0; u < inputs_; ++u) {
+        if (!result_.progress[at(x)][at(u)]) continue;
+        std::int32_t steps = 1;
+        while (!comes_to(x, u, cells_below(steps))) ++steps;
+        least = std::min(least, steps);
+        greatest = std::max(greatest, steps);
+      }
+      if (spec_.controller.synthesis == Synthesis::given) least = greatest;
+      result_.longest_return = std::max(result_.longest_return.value_or(0), least);
+      result_.longest_gap = std::max(result_.longest_gap.value_or(0), greatest);
+    }
+  }
+
+  /// The cells in which every post of a step of progress at x, in W, lies.
+  Set nearer_than(std::int64_t x) const {
+    const std::int32_t arrival = result_.arrival[at(x)];
+    if (spec_.goal_then == GoalThen::stay) return cells_below(arrival + (goal_[at(x)] ? 1 : 0));
+    if (spec_.goal_then == GoalThen::come_back && arrival == 0) return cells_below(INT32_MAX);
+    return cells_below(arrival);
+  }
+
   /// Those that can be forced within 0, 1, 2, ... steps.
   void find_arrival() {
     for (std::int64_t x = 0; x < cells_; ++x) {
       const std::int32_t outside = safe_[at(x)] ? -1 : -2;
-      result_.arrival.push_back(goal_[at(x)] ? 0 : plain_.invariant[at(x)] ? INT32_MAX : outside);
+      const Set& target = spec_.is_goal_lasting() ? visits_ : goal_;
+      result_.arrival.push_back(target[at(x)] ? 0 : plain_.invariant[at(x)] ? INT32_MAX : outside);
     }
     bool changed = true;
     for (std::int32_t k = 1; changed; ++k) {
@@ -91,8 +161,9 @@ class GoalFinder {
       const std::int32_t arrival = result_.arrival[at(x)];
       if (arrival < 0 || arrival == INT32_MAX) continue;
       own = plain_.controller[at(x)];
-      if (arrival == 0 || spec_.controller.synthesis == Synthesis::given) continue;
-      const Set nearer = cells_below(arrival);
+      if ((arrival == 0 && !spec_.is_goal_lasting()) || spec_.controller.synthesis == Synthesis::given)
+        continue;
+      const Set nearer = nearer_than(x);
       for (std::int64_t u = 0; u < inputs_; ++u) own[at(u)] = own[at(u)] && comes_to(x, u, nearer);
     }
   }
@@ -131,6 +202,7 @@ class GoalFinder {
     };
     std::vector<Set> layers = {cells_below(INT32_MAX)};  // A_0 = W
     const auto still = [&](std::int32_t k) {             // Z_k = Z_{k+1}
+      if (spec_.is_goal_lasting()) return true;
       for (std::int64_t x = 0; x < cells_; ++x) {
         if (in_layer(x, k) != in_layer(x, k + 1)) return false;
       }
@@ -143,11 +215,11 @@ class GoalFinder {
       Set next(at(cells_), false);
       for (std::int64_t x = 0; x < cells_; ++x) {
         if (!layer[at(x)]) continue;
-        if (goal_[at(x)]) {
+        if (goal_[at(x)] && !spec_.is_goal_lasting()) {
           next[at(x)] = in_layer(x, k + 1);
           continue;
         }
-        Set nearer = cells_below(result_.arrival[at(x)]);
+        Set nearer = nearer_than(x);
         for (std::size_t y = 0; y < nearer.size(); ++y) nearer[y] = nearer[y] && layer[y];
         bool every = true;
         for (std::int64_t u = 0; u < inputs_; ++u)
@@ -184,6 +256,7 @@ class GoalFinder {
   std::int64_t cells_;
   std::int64_t inputs_;
   Set goal_;
+  Set visits_;  ///< of a goal to return to: G and W
   PlainGoal result_;
 };
 

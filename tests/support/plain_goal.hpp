@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "support/plain_engine.hpp"
 
 namespace coordreq {
 
-/// Goals (contract, section 5) done the plain way, on the plain analysis of safety.
+/// Goals (contract, sections 5 and 11) done the plain way, on the plain analysis of safety.
 struct PlainGoal {
   struct Approach {
     std::vector<std::int32_t> delay;  ///< [cell] -2, -1, -4 as in the results file, INT32_MAX: unbounded
@@ -15,8 +16,11 @@ struct PlainGoal {
     std::int32_t fixed_point_index = -1;
     bool truncated = false;
   };
-  std::vector<std::int32_t> arrival;        ///< [cell] -2, -1, INT32_MAX: cannot be forced
-  std::vector<std::vector<bool>> progress;  ///< [cell][joint input] P, C in G, empty outside W
+  std::vector<std::int32_t> arrival;  ///< [cell] -2, -1, INT32_MAX: cannot be forced
+  std::vector<std::vector<bool>>
+      progress;  ///< [cell][joint input] P, C in G of a goal to reach, empty outside W
+  /// Of a goal to return to, if some visit can be followed by another one.
+  std::optional<std::int32_t> longest_return, longest_gap;
   std::vector<Approach> partitions;
 };
 

@@ -20,11 +20,12 @@ inline std::string draw_goal(const nlohmann::json& states) {
       {{6, one}, {3, one + " and " + two}, {2, one + " or " + two}, {1, "false"}, {1, "true"}});
 }
 
-/// The problem with a goal that ends the task, or, of four times one, as it is.
-inline std::string perhaps_with_end(const std::string& problem) {
+/// The problem with a goal that ends the task, or that lasts; or, of four times one, as it is.
+inline std::string perhaps_with_goal(const std::string& problem) {
   if (*rc::gen::inRange(0, 4) == 0) return problem;
   nlohmann::json spec = nlohmann::json::parse(problem);
-  spec["goal"] = {{"where", draw_goal(spec["states"])}, {"then", "over"}};
+  spec["goal"] = {{"where", draw_goal(spec["states"])},
+                  {"then", *rc::gen::element<std::string>("over", "over", "stay", "return")}};
   return spec.dump();
 }
 

@@ -243,7 +243,7 @@ class BlindCheck : public AnswerCheck {
   /// Whether the file claims that the cell is in a goal that ends the task. It is in every B_k, and removes
   /// no action from its fibres.
   [[nodiscard]] bool is_over(std::int64_t cell) const {
-    return context_.spec->ends_at_goal && context_.claims->values("/arrival")[at(cell)] == 0;
+    return context_.spec->ends_at_goal() && context_.claims->values("/arrival")[at(cell)] == 0;
   }
 
   /// B_1 by its definition, from Z_1 as claimed.

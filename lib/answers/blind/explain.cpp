@@ -88,7 +88,7 @@ class SightFinder {
  private:
   /// Whether a goal that ends the task is reached at the cell: then nobody chooses anything.
   [[nodiscard]] bool is_over(std::int64_t cell) const {
-    return context_.spec->ends_at_goal && context_.values(paths::kArrival)(cell) == 0;
+    return context_.spec->ends_at_goal() && context_.values(paths::kArrival)(cell) == 0;
   }
 
   /// The first cell found that can follow under IND_C and has this countdown.

@@ -15,7 +15,7 @@ CheckedCell::CheckedCell(const CheckContext& context)
       safe_(context.claims->members("/safe")),
       invariant_(context.claims->members("/invariant")),
       delay_(context.claims->values("/delay")),
-      arrival_(context.spec->ends_at_goal ? &context.claims->values("/arrival") : nullptr),
+      arrival_(context.spec->ends_at_goal() ? &context.claims->values("/arrival") : nullptr),
       posts_(*context.posts),
       allowed_(*context.spec, *context.grid, *context.inputs, context.claims->listed),
       admitted_(static_cast<std::size_t>(context.inputs->count())) {

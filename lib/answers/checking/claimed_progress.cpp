@@ -13,7 +13,9 @@ constexpr std::int32_t kOutside = -1;
 }  // namespace
 
 ClaimedProgress::ClaimedProgress(const CheckContext& context)
-    : context_(context), arrival_(context.claims->values("/arrival")) {
+    : context_(context),
+      is_lasting_(context.spec->is_goal_lasting()),
+      arrival_(context.claims->values("/arrival")) {
   for (const std::int32_t steps : arrival_) nearness_.push_back(steps < 0 ? kOutside : kForever - steps);
 }
 
@@ -38,11 +40,32 @@ std::int32_t ClaimedProgress::worst(CheckedCell& cell, std::int64_t u) const {
   return kForever - least;
 }
 
+std::int32_t ClaimedProgress::best(CheckedCell& cell) const {
+  const bool is_given = context_.spec->controller.synthesis == Synthesis::given;
+  bool is_none = true;
+  std::int32_t result = is_given ? 0 : kForever;
+  for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
+    if (cell.admitted()[u] == 0) continue;
+    is_none = false;
+    const std::int32_t own = worst(cell, static_cast<std::int64_t>(u));
+    result = is_given ? std::max(result, own) : std::min(result, own);
+  }
+  return is_none ? kForever : result;
+}
+
+std::int32_t ClaimedProgress::limit(CheckedCell& cell) const {
+  // What is lost in x itself follows from the equation of arrival: the best step loses no more.
+  if (context_.spec->goal_then == GoalThen::stay) return best(cell);
+  const std::int32_t own = arrival_[cell.at()];
+  return is_lasting_ && own == 0 ? kForever - 1 : own - 1;
+}
+
 std::vector<std::uint8_t> ClaimedProgress::of(CheckedCell& cell) const {
   std::vector<std::uint8_t> result = cell.admitted();
   if (context_.spec->controller.synthesis == Synthesis::given) return result;
+  const std::int32_t most = limit(cell);
   for (std::size_t u = 0; u < result.size(); ++u) {
-    if (result[u] != 0) result[u] = comes_nearer(cell, static_cast<std::int64_t>(u)) ? 1 : 0;
+    if (result[u] != 0) result[u] = worst(cell, static_cast<std::int64_t>(u)) <= most ? 1 : 0;
   }
   return result;
 }

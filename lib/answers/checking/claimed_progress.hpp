@@ -15,24 +15,32 @@ class ClaimedProgress {
 
   /// -2 outside S, -1 in S but not in K, kForever where the goal cannot be forced.
   [[nodiscard]] std::int32_t arrival(std::size_t cell) const { return arrival_[cell]; }
-  /// Whether the goal can be forced from the cell, which is not in the goal.
+  /// Whether P holds in the cell: the goal can be forced from it, and it is not in the goal, or the goal
+  /// lasts.
   [[nodiscard]] bool is_on_the_way(std::size_t cell) const {
-    return arrival_[cell] > 0 && arrival_[cell] != kForever;
+    return arrival_[cell] >= (is_lasting_ ? 0 : 1) && arrival_[cell] != kForever;
   }
   /// The greatest arrival in f(x,u); kForever if a cell outside K may be in it, or T by way of a `safe` side,
   /// or if there is no post.
   [[nodiscard]] std::int32_t worst(CheckedCell& cell, std::int64_t u) const;
-  /// Whether every cell of f(x,u) is nearer to the goal.
+  /// The least arrival that agents can force with the next sample; `given`: the greatest. kForever if C is
+  /// empty.
+  [[nodiscard]] std::int32_t best(CheckedCell& cell) const;
+  /// The greatest worst() of a step of P. @pre unchecked: is_on_the_way()
+  [[nodiscard]] std::int32_t limit(CheckedCell& cell) const;
+  /// Whether every cell of f(x,u) is nearer to the goal, which does not last.
   [[nodiscard]] bool comes_nearer(CheckedCell& cell, std::int64_t u) const {
     return worst(cell, u) < arrival_[cell.at()];
   }
-  /// P(x) as [joint input] 1 or 0. @pre unchecked: x is in W \ G
+  /// P(x) as [joint input] 1 or 0. @pre unchecked: is_on_the_way()
   [[nodiscard]] std::vector<std::uint8_t> of(CheckedCell& cell) const;
 
- private:
+  /// Whether f(x,u) may be T by way of a `safe` side.
   [[nodiscard]] bool leaves_through_safe_side(const CheckedCell& cell, std::int64_t u) const;
 
+ private:
   const CheckContext& context_;
+  bool is_lasting_;
   const std::vector<std::int32_t>& arrival_;
   std::vector<std::int32_t> nearness_;  ///< [cell] kForever less arrival; negative outside K
 };

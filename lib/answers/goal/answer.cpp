@@ -21,6 +21,15 @@
 namespace coordreq {
 namespace {
 
+/// What follows arrival, unless it is what a goal alone means.
+void add_then(const ProblemSpec& spec, const LongestReturns& returns, Json& goal) {
+  if (spec.goal_then == GoalThen::safe) return;
+  goal["then"] = goal_then_name(spec.goal_then);
+  if (spec.goal_then != GoalThen::come_back) return;
+  goal["longest_return"] = returns.forced ? Json(*returns.forced) : Json();
+  goal["longest_gap"] = returns.any_way ? Json(*returns.any_way) : Json();
+}
+
 void find_arrival(Answers& answers, const StageWork& work) {
   const AnalysisContext& context = answers.context;
   const auto& controller = answers.get<Controller>();
@@ -35,15 +44,30 @@ void find_arrival(Answers& answers, const StageWork& work) {
   goal.cells = part_of(safe, *controller.invariant, true, share);
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
+  const GoalThen then = context.spec.goal_then;
+  const LastingProblem lasting{goal.engine.get(), controller.invariant, &goal.cells, controller.synthesis};
   find_or_take_levels(work, engine, bounds, goal.nearness, [&](const WaveWatch& watch) {
+    if (then == GoalThen::stay) return find_stay_nearness(lasting, watch, work.team, goal.counts);
+    if (then == GoalThen::come_back) return find_return_nearness(lasting, watch, work.team, goal.counts);
     return find_nearness(engine, goal.engine->hull(), *controller.invariant, goal.cells, controller.synthesis,
                          watch, work.team, goal.counts, goal.engine->equal_work());
   });
   goal.winning = winning_cells(goal.nearness, work.team);
   goal.longest = longest_arrival(goal.nearness, work.team);
-  goal.away = part_of(goal.winning, goal.cells, false, share);
   goal.sizes = {context.count(goal.cells), context.count(goal.winning), context.count(safe)};
-  goal.progress = Controller{&engine, &goal.away, &goal.nearness, controller.synthesis, true};
+  if (context.spec.is_goal_lasting()) {
+    goal.away = goal.winning;
+    goal.bounds = progress_bounds(lasting, goal.nearness, then);
+  } else {
+    goal.away = part_of(goal.winning, goal.cells, false, share);
+  }
+  if (then == GoalThen::come_back) goal.returns = find_longest_returns(lasting, goal.nearness, work.team);
+  goal.progress = Controller{.engine = &engine,
+                             .invariant = &goal.away,
+                             .levels = &goal.nearness,
+                             .synthesis = controller.synthesis,
+                             .approaches = true,
+                             .bounds = context.spec.is_goal_lasting() ? &goal.bounds : nullptr};
   goal.approach.resize(context.spec.coordination.partitions.size());
 }
 
@@ -53,7 +77,12 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   const RowEngine& engine = goal.engine->engine();
   const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
   const std::optional<std::int64_t>& max_delay = spec.coordination.max_delay;
-  const ApproachSets sets{goal.engine.get(), &goal.nearness, &goal.cells, &goal.away};
+  const bool is_lasting = spec.is_goal_lasting();
+  const ApproachSets sets{.progress = goal.engine.get(),
+                          .nearness = &goal.nearness,
+                          .goal = is_lasting ? nullptr : &goal.cells,
+                          .away = &goal.away,
+                          .bounds = goal.progress.bounds};
   const std::int64_t steps = engine.grid().points();
   const LevelBounds bounds{&goal.winning, max_delay ? std::min(*max_delay, steps) : steps};
   DelayLayers& its_layers = goal.approach[p];
@@ -68,7 +97,11 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
     its_layers.counts = found.counts;
     return std::move(found.layers_of);
   });
-  follow_from_approach(layers, max_delay, work.team, its_layers);
+  if (is_lasting) {
+    follow_from_levels(max_delay, work.team, its_layers);
+  } else {
+    follow_from_approach(layers, max_delay, work.team, its_layers);
+  }
   find_best_cell(answers.context, work.team, its_layers);
 }
 
@@ -89,7 +122,7 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   summary["goal"] = {{"cells", goal->sizes.cells},
                      {"winning", goal->sizes.winning},
                      {"longest_arrival", goal->longest ? Json(*goal->longest) : Json()}};
-  if (answers.context.spec.ends_at_goal) summary["goal"]["then"] = "over";
+  add_then(answers.context.spec, goal->returns, summary["goal"]);
   work["arrival"] = work_json(goal->counts);
   for (std::size_t p = 0; p < goal->approach.size(); ++p) {
     summary["partitions"][p]["approach"] = layers_json(answers.context, goal->approach[p]);
@@ -108,8 +141,10 @@ std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, 
   }
   // In cells where the task is over no convention is needed.
   const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
-  result->rest =
-      is_in_goal_only ? goal->cells : part_of(going_on, goal->away, false, answers.context.shared_rows());
+  const bool is_lasting = answers.context.spec.is_goal_lasting();
+  result->rest = is_in_goal_only && is_lasting ? CellSet(goal->cells.rows(), goal->cells.row_length())
+                 : is_in_goal_only             ? goal->cells
+                                   : part_of(going_on, goal->away, false, answers.context.shared_rows());
   everywhere.whole = everywhere.invariant;
   everywhere.invariant = &result->rest;
   result->parts.push_back({everywhere, &*answers.context.hull});
@@ -123,12 +158,25 @@ void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["goal"] = {{"cells", source.attribute("/arrival", "goal_cells")},
                   {"winning", source.attribute("/arrival", "winning_cells")},
                   {"longest_arrival", longest < 0 ? Json() : Json(longest)}};
-  if (spec.ends_at_goal) info["goal"]["then"] = "over";
+  LongestReturns returns;
+  if (spec.goal_then == GoalThen::come_back) {
+    const auto steps = [&](const char* name) -> std::optional<std::int32_t> {
+      const std::int64_t value = source.attribute("/arrival", name);
+      return value < 0 ? std::nullopt : std::optional(static_cast<std::int32_t>(value));
+    };
+    returns = {steps("longest_return"), steps("longest_gap")};
+  }
+  add_then(spec, returns, info["goal"]);
 }
 
 Warnings advise_on_goal(const Answers& answers) {
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr || answers.context.safe_cells == 0) return {};
+  const GoalThen then = answers.context.spec.goal_then;
+  if (goal->sizes.winning == 0 && goal->sizes.cells > 0)  // of a lasting goal alone
+    return {{"goal", "/goal",
+             fmt::format("from no cell can the goal be {}: it cannot be forced",
+                         then == GoalThen::stay ? "kept in the end" : "visited again and again")}};
   if (goal->sizes.winning == 0) {
     const std::string hint =
         goal->sizes.safe == 0
@@ -139,7 +187,7 @@ Warnings advise_on_goal(const Answers& answers) {
              fmt::format("no cell of the {} set is in the goal on this grid: it cannot be forced{}",
                          answers.context.over ? "safe" : "invariance", hint)}};
   }
-  if (goal->sizes.winning > goal->sizes.cells) return {};
+  if (goal->longest.value_or(0) > 0) return {};
   const bool is_closed = answers.context.spec.abstraction.cells == Cells::closed;
   return {{"goal", "/goal",
            std::string("the goal can be forced from goal cells only") +
@@ -154,7 +202,7 @@ MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
   if (!spec.goal) return {};
   const auto partitions = static_cast<double>(spec.coordination.partitions.size());
   MemoryNeed need{
-      .kept = (partitions + 1) * sizes.levels() + 3 * sizes.set(),
+      .kept = (partitions + (spec.is_goal_lasting() ? 2 : 1)) * sizes.levels() + 3 * sizes.set(),
       .work = sizes.groups(single_classes(sizes.model().inputs())) + sizes.condition_of_held(*spec.goal),
       .array = partitions * sizes.cells() * sizeof(std::int16_t)};
   if (has_safe_side(spec)) {

@@ -7,6 +7,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/field_source.hpp"
+#include "answers/goal/lasting_goal.hpp"
 #include "answers/goal/progress_engine.hpp"
 #include "answers/invariance/controller.hpp"
 #include "answers/layers/delay_layers.hpp"
@@ -19,12 +20,12 @@
 namespace coordreq {
 
 /// How soon the goal can be reached, and for how long silence costs no time on the way to it (contract,
-/// section 5).
+/// section 5); of a lasting goal the same by section 11.
 struct Goal {
   std::unique_ptr<ProgressEngine> engine;
   CellSet cells;    ///< G
   CellSet winning;  ///< W
-  CellSet away;     ///< W \ G
+  CellSet away;     ///< W \ G; of a lasting goal W: where P holds
   struct Sizes {
     std::int64_t cells = 0;    ///< |G|
     std::int64_t winning = 0;  ///< |W|
@@ -33,7 +34,9 @@ struct Goal {
   Sizes sizes;
   LevelMap nearness;                    ///< of all cells, see find_nearness()
   std::optional<std::int32_t> longest;  ///< the greatest finite arrival
-  Controller progress;                  ///< P on W \ G
+  LongestReturns returns;               ///< of a goal to return to
+  LevelMap bounds;                      ///< of a lasting goal: Controller::bounds of P
+  Controller progress;                  ///< P, where it holds
   std::vector<DelayLayers> approach;    ///< [partition]
   WaveCounts counts;
 };
@@ -46,8 +49,8 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work);
 [[nodiscard]] Warnings advise_on_goal(const Answers& answers);
 void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
-/// C in cells without progress, and P on W \ G: controllers of different cells, which together are the
-/// controller of a run towards the goal; without a goal C alone.
+/// C in cells without progress, and P on W \ G (of a lasting goal on W): controllers of different cells,
+/// which together are the controller of a run towards the goal; without a goal C alone.
 struct PartialController {
   Controller controller;
   const RowHull* hull = nullptr;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "answers/invariance/controller_row.hpp"
 #include "answers/layers/independent_actions.hpp"
 #include "engine/find_levels.hpp"
 #include "engine/level_messages.hpp"
@@ -12,11 +13,12 @@
 namespace coordreq {
 namespace {
 
-/// The cells of W \ G where every choice of IND_P comes nearer to the goal.
+/// The cells of `away` where every choice of IND_P comes nearer to the goal, as P asks.
 CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, ThreadTeam& team) {
   const RowEngine& engine = sets.progress->engine();
   CellSet result(engine.rows(), engine.row_length());
   sets.nearness->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    const LevelRows<Level>& bounds = bounds_of(Controller{.bounds = sets.bounds}, levels);
     IndependentActions<Level> actions(projections, *sets.away, team.size());
     std::deque<PostReader<Level>> readers;
     for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
@@ -30,7 +32,7 @@ CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, 
         if (!any_set(away)) continue;
         actions.find_minimum(place, posts, least.data(), worker);
         const MutableRow nearing = result.row(place.row);
-        posts.kernels().above_bits(least.data(), levels.row(place.row), nearing.data(),
+        posts.kernels().above_bits(least.data(), bounds.row(place.row), nearing.data(),
                                    static_cast<std::size_t>(engine.row_length()));
         for (std::size_t w = 0; w < nearing.size(); ++w) nearing[w] &= away[w];
       }
@@ -85,7 +87,8 @@ LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const De
       for_each_bit(sets.away->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
       for_each_bit(nearing.row(r),
                    [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = LevelRows<Level>::kTop; });
-      for_each_bit(sets.goal->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = own[x]; });
+      if (sets.goal != nullptr)
+        for_each_bit(sets.goal->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = own[x]; });
       levels.put(r, cells.data());
     }
     if (engine.share() != nullptr) {
@@ -113,14 +116,20 @@ DelayLayers find_approach_layers(const ApproachSets& sets, const Projections& pr
   LevelMap start;
   WaveWatch inner_watch = watch;
   if (inner_watch.resumed == nullptr) {
-    start = first_levels(sets, nearing, layers);
+    // Levels above the limit count as kTop, so that nothing is asked of W itself.
+    const bool is_w_all = sets.goal == nullptr && max_delay == 0;
+    start = first_levels(sets, is_w_all ? *sets.away : nearing, layers);
     inner_watch.resumed = &start;
   }
   WaveCounts counts;
   DelayLayers result{.layers_of = find_levels(sets.progress->engine(), sets.progress->hull(), problem,
                                               inner_watch, team, counts)};
   result.counts = counts;
-  follow_from_approach(layers, max_delay, team, result);
+  if (sets.goal == nullptr) {
+    follow_from_levels(max_delay, team, result);
+  } else {
+    follow_from_approach(layers, max_delay, team, result);
+  }
   return result;
 }
 

@@ -12,12 +12,14 @@ namespace coordreq {
 struct ApproachSets {
   const ProgressEngine* progress = nullptr;
   const LevelMap* nearness = nullptr;
-  const CellSet* goal = nullptr;  ///< G
-  const CellSet* away = nullptr;  ///< W \ G
+  const CellSet* goal = nullptr;  ///< G, where layers are those of safety; null: nowhere, the goal is lasting
+  const CellSet* away = nullptr;  ///< W \ G; of a lasting goal W
+  const LevelMap* bounds = nullptr;  ///< Controller::bounds
 };
 
 /// Layers in W \ G, where agents that act alone must come nearer to the goal with every step; in G the layers
-/// are those of safety (contract, section 5). DelayLayers::layers_of is 0 outside W.
+/// are those of safety (contract, section 5). DelayLayers::layers_of is 0 outside W. Of a lasting goal the
+/// layers rest on nothing but P, in G too (section 11).
 ///
 /// Whether all of IND_P comes nearer does not depend on layers, and is found once: a cell where some choice
 /// does not come nearer has level 1, for ever, and cells of G keep the levels of safety; the ordinary wave

@@ -8,9 +8,7 @@
 #include "engine/find_levels.hpp"
 
 namespace coordreq {
-namespace {
 
-/// The levels to begin with: kTop in the goal, 1 in K outside it, 0 outside K.
 LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const CellSet& goal,
                         bool interned) {
   auto levels = engine.make_levels<std::uint8_t>(engine.posts(), interned);
@@ -27,8 +25,6 @@ LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const
   }
   return LevelMap(std::move(levels));
 }
-
-}  // namespace
 
 std::int32_t arrival_at(const LevelMap& nearness, std::int64_t cell) {
   return nearness.visit([cell](const auto& levels) {

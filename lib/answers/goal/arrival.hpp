@@ -35,6 +35,11 @@ template <class Level>
 /// The arrival of a cell (row-major linear index) in K.
 [[nodiscard]] std::int32_t arrival_at(const LevelMap& nearness, std::int64_t cell);
 
+/// The nearness to begin with: kTop in the goal, 1 in K outside it, 0 outside K.
+/// @param interned whether equal rows are held once
+[[nodiscard]] LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const CellSet& goal,
+                                      bool interned);
+
 /// Nearness of all cells: 0 outside K, 1 where the goal cannot be forced, kTop in the goal.
 /// @param engine of ProgressEngine
 /// @param invariant K @param goal G, a part of K

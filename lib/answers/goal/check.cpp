@@ -9,6 +9,7 @@
 
 #include "answers/checking/claimed_progress.hpp"
 #include "answers/checking/claimed_values.hpp"
+#include "answers/goal/check_lasting.hpp"
 #include "answers/invariance/check_safe.hpp"
 #include "model/input_class.hpp"
 #include "spec/partition_names.hpp"
@@ -30,8 +31,11 @@ struct ApproachTallies {
 
 /// The tallies that all threads share.
 struct GoalTallies {
+  /// @param is_lasting arrival has more than one solution then
+  explicit GoalTallies(bool is_lasting) : arrival(is_lasting ? "arrival (fixed point)" : "arrival") {}
+
   Tally goal{"goal"};
-  Tally arrival{"arrival"};
+  Tally arrival;
   Tally controller{"controller to the goal"};
   std::deque<ApproachTallies> approach;  // tallies cannot be moved
 };
@@ -64,8 +68,11 @@ struct GoalClass {
 
 class GoalChecker : public CellChecker {
  public:
-  GoalChecker(const CheckContext& context, const GoalClaims& claims, GoalTallies& tallies, SafeMemory& memory)
+  /// @param lasting null: the goal is none
+  GoalChecker(const CheckContext& context, const GoalClaims& claims, GoalTallies& tallies, SafeMemory& memory,
+              LastingCheck* lasting)
       : context_(context),
+        lasting_(lasting),
         claims_(claims),
         tallies_(tallies),
         by_definition_(context),
@@ -86,7 +93,8 @@ class GoalChecker : public CellChecker {
   void check(CheckedCell& cell) override {
     const std::int32_t arrival = claims_.arrival[cell.at()];
     // All cells of a goal that ends the task are in K, so that all cells of S are checked.
-    if (context_.spec->ends_at_goal ? cell.is_safe() : cell.is_invariant()) check_goal(cell, arrival == 0);
+    if (lasting_ == nullptr && (context_.spec->ends_at_goal() ? cell.is_safe() : cell.is_invariant()))
+      check_goal(cell, arrival == 0);
     check_arrival(cell, arrival);
     find_progress(cell, arrival);
     if (controller_ != nullptr)
@@ -100,7 +108,8 @@ class GoalChecker : public CellChecker {
   }
 
  private:
-  /// Finds P(x); in the goal C(x), and nothing in a cell from which the goal cannot be forced.
+  /// Finds P(x); C(x) in a goal that does not last, and nothing in a cell from which the goal cannot be
+  /// forced.
   void find_progress(CheckedCell& cell, std::int32_t arrival) {
     progress_.assign(cell.admitted().size(), 0);
     if (!cell.is_invariant()) return;
@@ -160,7 +169,11 @@ class GoalChecker : public CellChecker {
   void check_arrival(CheckedCell& cell, std::int32_t claimed) {
     tallies_.arrival.add_checked(1);
     std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
-    if (cell.is_invariant()) expected = claimed == 0 ? 0 : arrival_by_definition(cell);
+    if (cell.is_invariant() && lasting_ != nullptr) {
+      expected = lasting_arrival(cell, claimed);
+    } else if (cell.is_invariant()) {
+      expected = claimed == 0 ? 0 : one_more(by_definition_.best(cell));
+    }
     if (claimed == expected) return;
     if (context_.sound_only() && expected >= 0 && claimed > expected) {
       tallies_.arrival.add_unproven();
@@ -169,15 +182,22 @@ class GoalChecker : public CellChecker {
     }
   }
 
-  [[nodiscard]] std::int32_t arrival_by_definition(CheckedCell& cell) const {
-    const bool is_given = context_.spec->controller.synthesis == Synthesis::given;
-    std::int32_t best = is_given ? 0 : kForever;
-    for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
-      if (cell.admitted()[u] == 0) continue;
-      const std::int32_t own = by_definition_.worst(cell, static_cast<std::int64_t>(u));
-      best = is_given ? std::max(best, own) : std::min(best, own);
+  [[nodiscard]] std::int32_t lasting_arrival(CheckedCell& cell, std::int32_t claimed) {
+    const std::int32_t best = by_definition_.best(cell);
+    const SafeVerdict verdict = judge_.judge(cell.number(), true);
+    const LastingCheck::Judged judged = lasting_->judge(cell, claimed, verdict, best);
+    tallies_.goal.add_checked(1);
+    if (judged.is_unproven) tallies_.goal.add_unproven();
+    if (context_.spec->goal_then == GoalThen::come_back && claimed == 0 && best != kForever) {
+      std::int32_t worst = best;
+      for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
+        const std::int32_t own =
+            cell.admitted()[u] == 0 ? kForever : by_definition_.worst(cell, static_cast<std::int64_t>(u));
+        if (own != kForever) worst = std::max(worst, own);
+      }
+      lasting_->add_step(best, worst);
     }
-    return one_more(best);
+    return judged.expected;
   }
 
   void check_approach(CheckedCell& cell, std::size_t p) {
@@ -187,10 +207,10 @@ class GoalChecker : public CellChecker {
     const std::int32_t arrival = claims_.arrival[cell.at()];
     std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
     if (cell.is_invariant()) {
-      expected = arrival == kForever ? kNoWayToGoal
-                 : cell.is_over()    ? kForever
-                 : arrival == 0      ? claims_.safety[p][cell.at()]
-                                     : approach_by_definition(cell, p);
+      expected = arrival == kForever                   ? kNoWayToGoal
+                 : cell.is_over()                      ? kForever
+                 : arrival == 0 && lasting_ == nullptr ? claims_.safety[p][cell.at()]
+                                                       : approach_by_definition(cell, p);
       const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
       if (most && claims_.fixed_points[p] < 0)
         expected = std::min(expected, static_cast<std::int32_t>(*most));
@@ -206,12 +226,13 @@ class GoalChecker : public CellChecker {
 
   [[nodiscard]] std::int32_t approach_by_definition(CheckedCell& cell, std::size_t p) {
     std::vector<std::int64_t> choices;
+    const std::int32_t most = by_definition_.limit(cell);
     for (std::int64_t u = 0; u < context_.inputs->count(); ++u) {
       bool is_choice = true;
       for (std::size_t c = 0; is_choice && c < projections_.size(); ++c)
         is_choice = projections_[c][static_cast<std::size_t>(classes_[p][c].own.action(u))] != 0;
       if (!is_choice) continue;
-      if (cell.is_forbidden(u) || !by_definition_.comes_nearer(cell, u)) return 0;
+      if (cell.is_forbidden(u) || by_definition_.worst(cell, u) > most) return 0;
       choices.push_back(u);
     }
     std::int32_t worst = kForever;
@@ -236,6 +257,7 @@ class GoalChecker : public CellChecker {
   }
 
   const CheckContext& context_;
+  LastingCheck* lasting_;
   const GoalClaims& claims_;
   GoalTallies& tallies_;
   ClaimedProgress by_definition_;
@@ -243,7 +265,7 @@ class GoalChecker : public CellChecker {
   SafeJudge judge_;
   std::vector<std::vector<GoalClass>> classes_;  ///< [partition]
   // The cell being checked:
-  std::vector<std::uint8_t> progress_;                  ///< P(x), in the goal C(x)
+  std::vector<std::uint8_t> progress_;                  ///< see find_progress()
   std::vector<std::vector<std::uint8_t>> projections_;  ///< [class of the partition being checked][action]
 };
 
@@ -253,9 +275,11 @@ class GoalCheck : public AnswerCheck {
       : AnswerCheck(CheckSection::steps),
         context_(context),
         claims_(*context.claims),
-        memory_(*context.spec->goal, *context.grid) {
+        memory_(*context.spec->goal, *context.grid),
+        tallies_(context.spec->is_goal_lasting()) {
     for (const PartitionSpec& partition : context.spec->coordination.partitions)
       tallies_.approach.emplace_back(partition.name);
+    if (context.spec->is_goal_lasting()) lasting_.emplace(context);
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
@@ -267,7 +291,7 @@ class GoalCheck : public AnswerCheck {
       longest = std::max(longest, std::int64_t{arrival});
     }
     const Claims& claims = *context_.claims;
-    sizes.expect("|G|", claims.attribute("/arrival", "goal_cells"), goal);
+    if (!lasting_) sizes.expect("|G|", claims.attribute("/arrival", "goal_cells"), goal);
     sizes.expect("|W|", claims.attribute("/arrival", "winning_cells"), winning);
     sizes.expect("longest arrival", claims.attribute("/arrival", "longest_arrival"), longest);
     std::vector<Finding> findings;
@@ -277,10 +301,15 @@ class GoalCheck : public AnswerCheck {
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<GoalChecker>(context_, claims_, tallies_, memory_);
+    return std::make_unique<GoalChecker>(context_, claims_, tallies_, memory_,
+                                         lasting_ ? &*lasting_ : nullptr);
+  }
+  void check_all(ThreadTeam& team) override {
+    if (lasting_) lasting_->check_all(team);
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.goal.finding(), tallies_.arrival.finding()};
+    if (lasting_) std::ranges::move(lasting_->findings(), std::back_inserter(result));
     if (context_.spec->output.controller) result.push_back(tallies_.controller.finding());
     for (const ApproachTallies& tallies : tallies_.approach) {
       result.push_back(tallies.delay.finding());
@@ -314,7 +343,8 @@ class GoalCheck : public AnswerCheck {
     return comparison.finding();
   }
 
-  /// Whether `max_delay` M stopped the iteration: unless A_M is empty, or A and Z stood still before.
+  /// Whether `max_delay` M stopped the iteration: unless A_M is empty, or A and Z (A alone, of a goal that
+  /// lasts) stood still before.
   /// @param claimed whether the file says so; then cells of delay M are those of the last layer
   [[nodiscard]] bool is_stopped(std::size_t p, std::int64_t last, bool unbounded, bool claimed) const {
     const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
@@ -325,6 +355,7 @@ class GoalCheck : public AnswerCheck {
     for (const std::int32_t delay : claims_.delay[p]) {
       if (delay >= 0 && delay != kForever && delay < *most) fixed = std::max(fixed, std::int64_t{delay} + 1);
     }
+    if (lasting_) return fixed >= *most;
     const std::int64_t of_safety = claims_.of_safety[p];
     return of_safety < 0 || std::max(fixed, of_safety) >= *most;
   }
@@ -333,6 +364,7 @@ class GoalCheck : public AnswerCheck {
   GoalClaims claims_;
   SafeMemory memory_;
   GoalTallies tallies_;
+  std::optional<LastingCheck> lasting_;
 };
 
 }  // namespace

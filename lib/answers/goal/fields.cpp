@@ -26,24 +26,47 @@ std::string progress_path(const ProblemSpec& spec, const PartitionSpec& partitio
   return "/actions:goal/" + partition.name + "/" + class_name(spec.agents, partition.classes[c]);
 }
 
+/// What arrival counts.
+struct ArrivalWords {
+  std::string description, compared, title;
+};
+
+ArrivalWords arrival_words(GoalThen then) {
+  if (then == GoalThen::stay)
+    return {"number of samples outside the goal, from this one on, that coordinated agents can bound",
+            "samples outside the goal", "Samples outside the goal to come"};
+  if (then == GoalThen::come_back)
+    return {"steps within which coordinated agents can force the next visit of the goal",
+            "time to the next visit", "Time to the next visit of the goal"};
+  return {"steps within which coordinated agents can force the goal", "time to the goal", "Time to the goal"};
+}
+
+/// Of a goal to return to.
+std::vector<FieldAttribute> longest_attributes(const ProblemSpec& spec) {
+  if (spec.goal_then != GoalThen::come_back) return {};
+  return {{"longest_return", std::int64_t{0}, true}, {"longest_gap", std::int64_t{0}, true}};
+}
+
 Field arrival_field(const ProblemSpec& spec) {
+  const ArrivalWords words = arrival_words(spec.goal_then);
   return {.path = paths::kArrival,
           .kind = FieldKind::steps,
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes(spec),
           .least = DelayLayers::kOutsideSafe,
-          .attributes = described("steps within which coordinated agents can force the goal") +
+          .attributes = described(words.description) +
                         std::vector<FieldAttribute>{
                             flags({kNotSafe, kNotInvariant, {kLargestValue, "goal_cannot_be_forced"}}),
                             {"goal_cells", std::uint64_t{0}, true},
                             {"winning_cells", std::uint64_t{0}, true},
-                            {"longest_arrival", std::int64_t{0}, true}},
+                            {"longest_arrival", std::int64_t{0}, true}} +
+                        longest_attributes(spec),
           .shown = {.column = "arrival",
-                    .compared = "time to the goal",
+                    .compared = words.compared,
                     .less_is_better = true,
-                    .asked = {.name = "arrival", .words = "time to the goal"},
-                    .map = {.kind = "arrival", .title = "Time to the goal"}}};
+                    .asked = {.name = "arrival", .words = words.compared},
+                    .map = {.kind = "arrival", .title = words.title}}};
 }
 
 void add_approach(Fields& fields, const ProblemSpec& spec) {
@@ -154,7 +177,10 @@ Fields goal_fields(const ProblemSpec& spec) {
   add_sizes(fields, "/approach_", 'A', 2 * cell_count(spec), spec);
   if (spec.output.controller) {
     add_bits(fields, paths::kProgress, FieldSection::controller, spec, all_inputs(spec),
-             "joint inputs that come nearer to the goal, one bit each; in the goal those of the controller");
+             spec.is_goal_lasting()
+                 ? "joint inputs that come nearer to the goal, or stay in it as it asks, one bit each"
+                 : "joint inputs that come nearer to the goal, one bit each; in the goal those of the "
+                   "controller");
   }
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c) {
@@ -180,6 +206,11 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
       .attributes = {{"goal_cells", static_cast<std::uint64_t>(goal->sizes.cells)},
                      {"winning_cells", static_cast<std::uint64_t>(goal->sizes.winning)},
                      {"longest_arrival", std::int64_t{goal->longest.value_or(-1)}}}};
+  if (spec.goal_then == GoalThen::come_back) {
+    std::map<std::string, AttributeValue>& attributes = values.entries[paths::kArrival].attributes;
+    attributes["longest_return"] = std::int64_t{goal->returns.forced.value_or(-1)};
+    attributes["longest_gap"] = std::int64_t{goal->returns.any_way.value_or(-1)};
+  }
   fill_approach(answers, *goal, values);
   if (!spec.output.controller && !spec.output.actions) return;
   const std::shared_ptr<const ControllerParts> parts = controller_parts(answers, true);

@@ -11,11 +11,13 @@ namespace {
 class GoalPolicy : public CellPolicy {
  public:
   explicit GoalPolicy(const PolicyContext& context)
-      : arrival_(context.values(paths::kArrival)), progress_(*context.spec, *context.posts, arrival_) {}
+      : arrival_(context.values(paths::kArrival)),
+        least_(context.spec->is_goal_lasting() ? 0 : 1),
+        progress_(*context.spec, *context.posts, arrival_) {}
 
   bool holds(std::int64_t cell) override {
     const std::int32_t arrival = arrival_(cell);
-    return arrival > 0 && arrival != kNeverArrives;
+    return arrival >= least_ && arrival != kNeverArrives;
   }
   const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
     progressing_ = progress_.of(cell, admissible);
@@ -24,6 +26,7 @@ class GoalPolicy : public CellPolicy {
 
  private:
   CellValue arrival_;
+  std::int32_t least_;  ///< arrival where P holds
   ProgressInputs progress_;
   Numbers progressing_;  ///< P(x) of the last cell asked about
 };
@@ -32,23 +35,30 @@ class GoalPolicy : public CellPolicy {
 
 std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
   if (!spec.goal) return {};
+  const bool is_reached_once = spec.goal_then == GoalThen::safe;
   const std::string where_of_no_use =
-      spec.ends_at_goal ? "cannot be forced" : "cannot be forced, or is reached";
-  return {{.name = "approach",
-           .words = "approach",
-           .gain = "loses no time",
-           .delay = paths::kApproachDelay,
-           .trigger = paths::kApproachTrigger,
-           .aim = {.path = paths::kArrival, .words = "steps within which the goal can be forced"},
-           .make = make_goal_policy,
-           .header = {.where = "on the way to the goal",
-                      .purpose = "Towards the goal. Where it " + where_of_no_use +
-                                 ", the two below do not apply: continue with the two\n   above.",
-                      .countdown = "Steps until the agents must start to connect, so as to lose no time, or "
-                                   "one of the numbers above.",
-                      .allowed = "Whether class c comes nearer to the goal by its joint action a, with some "
-                                 "actions of the others. Where the goal\n   cannot be forced, or is reached: "
-                                 "whether the action is allowed."}}};
+      is_reached_once ? "cannot be forced, or is reached" : "cannot be forced";
+  return {
+      {.name = "approach",
+       .words = "approach",
+       .gain = "loses no time",
+       .delay = paths::kApproachDelay,
+       .trigger = paths::kApproachTrigger,
+       .aim = {.path = paths::kArrival,
+               .words = spec.goal_then == GoalThen::stay ? "samples outside the goal that are still to come"
+                                                         : "steps within which the goal can be forced",
+               .lasts = spec.is_goal_lasting()},
+       .make = make_goal_policy,
+       .header = {.where = "on the way to the goal",
+                  .purpose = "Towards the goal. Where it " + where_of_no_use +
+                             ", the two below do not apply: continue with the two\n   above.",
+                  .countdown = "Steps until the agents must start to connect, so as to lose no time, or "
+                               "one of the numbers above.",
+                  .allowed = "Whether class c comes nearer to the goal by its joint action a, with some "
+                             "actions of the others. Where the goal\n   " +
+                             std::string(spec.is_goal_lasting() ? "cannot be forced"
+                                                                : "cannot be forced, or is reached") +
+                             ": whether the action is allowed."}}};
 }
 
 std::unique_ptr<CellPolicy> make_goal_policy(const PolicyContext& context) {

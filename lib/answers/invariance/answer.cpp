@@ -61,7 +61,7 @@ void tell_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Jso
 
 MemoryNeed invariance_memory(const EngineSizes& sizes, int threads) {
   const InputSpace& inputs = sizes.model().inputs();
-  const double sets = sizes.model().spec().ends_at_goal ? 2 : 1;  // K, and K \ G
+  const double sets = sizes.model().spec().ends_at_goal() ? 2 : 1;  // K, and K \ G
   MemoryNeed need{.kept = sizes.levels() + sets * sizes.set(),
                   .work = sizes.groups(single_classes(inputs)) + sizes.wave(threads),
                   .array = sizes.cells() * sizeof(std::int16_t)};

@@ -5,10 +5,21 @@
 
 #include "answers/invariance/controller.hpp"
 #include "base/requires.hpp"
+#include "engine/level_map.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/tuple_walk.hpp"
 
 namespace coordreq {
+
+/// The levels that those of posts must be above for an action to be in P.
+/// @param levels controller.levels
+template <class Level>
+const LevelRows<Level>& bounds_of(const Controller& controller, const LevelRows<Level>& levels) {
+  if (controller.bounds == nullptr) return levels;
+  const auto* const bounds = controller.bounds->get_if<Level>();
+  REQUIRES(bounds != nullptr);
+  return *bounds;
+}
 
 /// out = {x in the row : u in C(x)}, the same for all u in one choice of groups.
 /// @param posts of `levels`, which are controller.levels
@@ -26,7 +37,8 @@ void controller_row(const Controller& controller, const LevelRows<Level>& levels
     const Level* const least = posts.minimum(tuple.slice_ids(), lanes, 0);
     std::fill(out.begin(), out.end(), 0);
     if (controller.approaches) {
-      posts.kernels().above_bits(least, levels.row(row) + lanes.begin, out.data() + word, lanes.size());
+      const Level* const own = bounds_of(controller, levels).row(row);
+      posts.kernels().above_bits(least, own + lanes.begin, out.data() + word, lanes.size());
     } else {
       posts.kernels().top_bits(least, out.data() + word, lanes.size());
     }

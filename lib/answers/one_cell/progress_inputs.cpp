@@ -43,11 +43,23 @@ std::int32_t ProgressInputs::worst(std::int64_t x, std::int64_t u) {
   return worst_in(box);
 }
 
+std::int32_t ProgressInputs::limit(std::int64_t x, const std::vector<std::int64_t>& admissible) {
+  if (spec_.goal_then == GoalThen::stay) {
+    // What is lost in x itself follows from the equation of arrival: the best step loses no more.
+    std::int32_t best = INT32_MAX;
+    for (const std::int64_t u : admissible) best = std::min(best, worst(x, u));
+    return best;
+  }
+  if (spec_.goal_then == GoalThen::come_back && arrival_(x) == 0) return INT32_MAX - 1;
+  return arrival_(x) - 1;
+}
+
 std::vector<std::int64_t> ProgressInputs::of(std::int64_t x, const std::vector<std::int64_t>& admissible) {
   if (spec_.controller.synthesis == Synthesis::given) return admissible;
   std::vector<std::int64_t> result;
+  const std::int32_t most = limit(x, admissible);
   for (const std::int64_t u : admissible) {
-    if (worst(x, u) < arrival_(x)) result.push_back(u);
+    if (worst(x, u) <= most) result.push_back(u);
   }
   return result;
 }

@@ -10,8 +10,8 @@
 
 namespace coordreq {
 
-/// The progress controller P at single cells, straight from the definition (contract, section 5). One object
-/// a thread.
+/// The progress controller P at single cells, straight from the definition (contract, sections 5 and 11). One
+/// object a thread.
 class ProgressInputs {
  public:
   /// Steps to the goal from a cell; INT32_MAX if the goal cannot be forced, below 0 outside K.
@@ -25,10 +25,12 @@ class ProgressInputs {
   /// The greatest arrival in f(x,u); INT32_MAX if a cell outside K is in it, or T by way of a `safe` side.
   /// @pre unchecked: f(x,u) is not empty
   [[nodiscard]] std::int32_t worst(std::int64_t x, std::int64_t u);
-  /// P(x) of C(x), ascending, x in W \ G.
+  /// P(x) of C(x), ascending, x in W \ G; of a lasting goal x in W.
   [[nodiscard]] std::vector<std::int64_t> of(std::int64_t x, const std::vector<std::int64_t>& admissible);
 
  private:
+  /// The greatest arrival after a step of P.
+  [[nodiscard]] std::int32_t limit(std::int64_t x, const std::vector<std::int64_t>& admissible);
   [[nodiscard]] bool leaves_through_safe_side(std::int64_t u) const;
   [[nodiscard]] std::int32_t worst_in(const std::vector<IndexRange>& box);
 
