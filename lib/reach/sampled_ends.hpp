@@ -40,7 +40,7 @@ class SampledEnds {
   std::vector<Dependencies> dependencies_;
   std::vector<std::unique_ptr<PointFlow>> flows_;  ///< one a state, made when needed
   std::vector<double> slots_;
-  std::int64_t most_tried_ = 0;  ///< sub-steps of the flow that is asked, from its beginning
+  std::int64_t most_tried_ = 0;        ///< sub-steps of the flow that is asked, from its beginning
   std::size_t state_ = SIZE_MAX;       ///< that solutions were followed for
   std::vector<Interval> boxes_;        ///< from where
   std::vector<std::int32_t> ends_of_;  ///< the states whose ends are known

@@ -16,7 +16,7 @@
 namespace coordreq {
 namespace {
 
-using Numbers = std::vector<Rational>;
+using Rationals = std::vector<Rational>;
 
 Program link_table(std::string_view text, const TableFunction& table,
                    ExpectedType expected = ExpectedType::number) {
@@ -30,21 +30,21 @@ int pick(int least, int most) {
 Rational random_number(int least, int most) {
   return Rational(pick(least * 16, most * 16)) / pick(3, 16);
 }
-Numbers random_axis(int most) {
-  Numbers axis{random_number(-4, 4)};
+Rationals random_axis(int most) {
+  Rationals axis{random_number(-4, 4)};
   const int count = pick(2, most);
   while (static_cast<int>(axis.size()) < count)
     axis.push_back(axis.back() + random_number(0, 2) + Rational(1, 7));
   return axis;
 }
-Numbers random_values(std::size_t count) {
-  Numbers values;
+Rationals random_values(std::size_t count) {
+  Rationals values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(random_number(-5, 5));
   return values;
 }
 
 /// Of the definition: between the neighbouring points, by the nearest end outside.
-Rational interpolated(const Numbers& x, const Numbers& value, const Rational& at) {
+Rational interpolated(const Rationals& x, const Rationals& value, const Rational& at) {
   if (at <= x.front()) return value.front();
   for (std::size_t i = 1; i < x.size(); ++i) {
     if (at <= x[i]) return value[i - 1] + (value[i] - value[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
@@ -65,7 +65,7 @@ RationalInterval range_of(const Program& program, const Rational& from, const Ra
 }
 
 /// The least and the greatest value, which are at ends or points.
-RationalInterval true_range(const Numbers& x, const Numbers& value, const Rational& from,
+RationalInterval true_range(const Rationals& x, const Rationals& value, const Rational& from,
                             const Rational& to) {
   RationalInterval range = exactly(interpolated(x, value, from));
   const auto add = [&](const Rational& number) {
@@ -94,7 +94,7 @@ std::string tree_of(const Program& program) {
   return texts.back();
 }
 
-void expect_same(const Numbers& x, const Numbers& value, const std::string& text) {
+void expect_same(const Rationals& x, const Rationals& value, const std::string& text) {
   const std::string first = to_text(x.front()), last = to_text(x.back());
   const TableFunction table = linear_table(x, value, BeyondAxis::clamp);
   const Program made = link_table("t(x)", table);
@@ -108,8 +108,8 @@ void expect_same(const Numbers& x, const Numbers& value, const std::string& text
 
 TEST(TableFunction, IsExactAtRationalPoints) {
   EXPECT_TRUE(rc::check([] {
-    const Numbers x = random_axis(12);
-    const Numbers value = random_values(x.size());
+    const Rationals x = random_axis(12);
+    const Rationals value = random_values(x.size());
     const TableFunction table = linear_table(x, value, BeyondAxis::clamp);
     const Program program = link_table("t(x)", table);
     for (const Rational& at : x) RC_ASSERT(value_of(program, at) == interpolated(x, value, at));
@@ -122,8 +122,8 @@ TEST(TableFunction, IsExactAtRationalPoints) {
 
 TEST(TableFunction, IntervalsEncloseItsRange) {
   EXPECT_TRUE(rc::check([] {
-    const Numbers x = random_axis(12);
-    const Numbers value = random_values(x.size());
+    const Rationals x = random_axis(12);
+    const Rationals value = random_values(x.size());
     const TableFunction table = linear_table(x, value, BeyondAxis::clamp);
     const Program program = link_table("t(x)", table);
     const Rational from = random_number(-6, 12);
@@ -138,8 +138,8 @@ TEST(TableFunction, IntervalsEncloseItsRange) {
 
 TEST(TableFunction, IntervalsGiveTheExactRangeWhereItTurnsAtMostOnce) {
   EXPECT_TRUE(rc::check([] {
-    const Numbers x = random_axis(12);
-    Numbers value = random_values(x.size());
+    const Rationals x = random_axis(12);
+    Rationals value = random_values(x.size());
     const auto turn = value.begin() + pick(0, static_cast<int>(x.size()));
     std::sort(value.begin(), turn);
     std::sort(turn, value.end(), std::greater<>());
@@ -161,8 +161,8 @@ TEST(TableFunction, IntervalsGiveTheExactRangeWhereItTurnsAtMostOnce) {
 
 TEST(TableFunction, AtAKinkItsDerivativesAreTheHullOfTwoSlopes) {
   EXPECT_TRUE(rc::check([] {
-    const Numbers x = random_axis(12);
-    const Numbers value = random_values(x.size());
+    const Rationals x = random_axis(12);
+    const Rationals value = random_values(x.size());
     RC_PRE(x.size() > 2);
     const TableFunction table = linear_table(x, value, BeyondAxis::clamp);
     const Program program = link_table("t(x)", table);
@@ -196,17 +196,17 @@ TEST(TableFunction, AtAKinkItsDerivativesAreTheHullOfTwoSlopes) {
 
 TEST(TableFunction, OfTwoVariablesIsExactAtRationalPoints) {
   EXPECT_TRUE(rc::check([] {
-    const Numbers x = random_axis(5);
-    const Numbers y = random_axis(5);
-    std::vector<Numbers> rows;
+    const Rationals x = random_axis(5);
+    const Rationals y = random_axis(5);
+    std::vector<Rationals> rows;
     for (std::size_t j = 0; j < y.size(); ++j) rows.push_back(random_values(x.size()));
     const TableFunction table = bilinear_table(x, y, rows, BeyondAxis::clamp);
     const Program program = link_table("t(x, y)", table);
     for (int n = 0; n < 10; ++n) {
       const Rational at_x = n == 0 ? x.back() : random_number(-8, 12);
       const Rational at_y = n == 0 ? y.front() : random_number(-8, 12);
-      Numbers column;
-      for (const Numbers& row : rows) column.push_back(interpolated(x, row, at_x));
+      Rationals column;
+      for (const Rationals& row : rows) column.push_back(interpolated(x, row, at_x));
       RC_ASSERT(value_of(program, at_x, at_y) == interpolated(y, column, at_y));
     }
   }));
@@ -222,7 +222,7 @@ TEST(TableFunction, ThatSaysTheSameAsAFunctionIsThatFunction) {
 }
 
 TEST(TableFunction, MayRefuseArgumentsOutside) {
-  const TableFunction table = linear_table(Numbers{0, 10}, Numbers{1, 2}, BeyondAxis::refuse);
+  const TableFunction table = linear_table(Rationals{0, 10}, Rationals{1, 2}, BeyondAxis::refuse);
   const Program program = link_table("t(x)", table);
   EXPECT_EQ(value_of(program, 10), 2);
   EXPECT_TRUE(range_of(program, 0, 10).total);
@@ -237,8 +237,9 @@ TEST(TableFunction, MayRefuseArgumentsOutside) {
 }
 
 TEST(TableFunction, IsCalledWithAsManyNumbersAsItHasAxes) {
-  const TableFunction one = linear_table(Numbers{0, 1}, Numbers{1, 2}, BeyondAxis::clamp);
-  const TableFunction two = bilinear_table(Numbers{0, 1}, Numbers{0, 1}, {{0, 1}, {2, 3}}, BeyondAxis::clamp);
+  const TableFunction one = linear_table(Rationals{0, 1}, Rationals{1, 2}, BeyondAxis::clamp);
+  const TableFunction two =
+      bilinear_table(Rationals{0, 1}, Rationals{0, 1}, {{0, 1}, {2, 3}}, BeyondAxis::clamp);
   const auto error = [](std::string_view text, const TableFunction& table) {
     return error_of([&] { (void)link_table(text, table); });
   };
