@@ -116,7 +116,7 @@ class Cases(Case):
         for trace in json.loads(self.text_of("simulate", "r.h5", "--steps", "40", "--start", "random", "--runs", "20", "--json"))["traces"]:
             self.assertEqual(trace["outcome"], "completed")
             self.assertLessEqual(trace["longest_gap"], 2)
-        self.assert_fails(2, "runs do not end in a goal to stay at or to return to", "simulate", "r.h5", "--start", "random", "--steps", "3", "--until", "goal")
+        self.assert_fails(2, "runs do not end in a goal to stay at or to return to (--until)", "simulate", "r.h5", "--start", "random", "--steps", "3", "--until", "goal")
 
     def test_what_is_not_known_is_refused(self):
         limit = [{"name": "r", "where": "true", "max_arrival": 3}]
@@ -143,7 +143,7 @@ class Cases(Case):
         # Also a solution of the equation of 0, but not the least one.
         with h5py.File(self.folder / "r.h5", "r+") as file:
             file["arrival"][0] = 5
-            file["arrival"].attrs["longest_arrival"] = 5
+            file["arrival"].attrs.modify("longest_arrival", 5)
         self.assertIn("arrival (fixed point)", self.text_of("verify", "r.h5"))
         result = self.run_program("verify", "r.h5", "--full")
         self.assertEqual(result.returncode, 1)
@@ -151,7 +151,7 @@ class Cases(Case):
         # Less than can be kept.
         with h5py.File(self.folder / "r.h5", "r+") as file:
             file["arrival"][0] = 0
-            file["arrival"].attrs["longest_arrival"] = 1
+            file["arrival"].attrs.modify("longest_arrival", 1)
         self.assertEqual(self.run_program("verify", "r.h5").returncode, 1)
 
     def test_verify_finds_that_a_goal_can_be_visited(self):
@@ -160,8 +160,8 @@ class Cases(Case):
             file["arrival"][:] = MOST
             attributes = file["arrival"].attrs
             for name in ("longest_arrival", "longest_return", "longest_gap"):
-                attributes[name] = -1
-            attributes["winning_cells"] = 0
+                attributes.modify(name, -1)
+            attributes.modify("winning_cells", 0)
             file["approach_delay"][:] = -4
             file["approach_trigger"][:] = -4
             file["approach_layer_size"][:] = 0

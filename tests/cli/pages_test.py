@@ -18,7 +18,7 @@ GRIDS = (DOCS / "how-to/grids.md").read_text()
 SESSIONS = {
     "how-to/coalitions.md": (2, []),
     "reference/commands.md": (1, []),
-    "how-to/goals-and-memory.md": (2, []),
+    "how-to/goals-and-memory.md": (3, []),
     "how-to/grids.md": (1, []),
     "how-to/logs.md": (1, ["crossing.json"]),
     "how-to/networks.md": (1, []),

@@ -174,7 +174,7 @@ TEST(TableFunction, AtAKinkItsDerivativesAreTheHullOfTwoSlopes) {
     const auto slope = [&](std::size_t k) {
       return nearest_double((value[k] - value[k - 1]) / (x[k] - x[k - 1]));
     };
-    const auto [low, high] = std::minmax(slope(i), slope(i + 1));
+    const auto [low, high] = std::minmax({slope(i), slope(i + 1)});
     RC_ASSERT(result.gradient[0].lower <= low);
     RC_ASSERT(result.gradient[0].upper >= high);
     RC_ASSERT(result.jump.lower == 0.0);
