@@ -40,7 +40,8 @@ std::vector<InputSpec> held_inputs(const Node& hold, const std::vector<InputSpec
   return result;
 }
 
-void check_name_is_free(const Json& spec, const std::string& name, const std::string& pointer) {
+void check_name_is_free(const Json& spec, const std::string& name, const std::string& input,
+                        const std::string& pointer) {
   bool is_taken = false;
   for (const char* const list : {"states", "inputs", "disturbances"}) {
     for (const Json& variable : spec.value(list, Json::array()))
@@ -48,8 +49,10 @@ void check_name_is_free(const Json& spec, const std::string& name, const std::st
   }
   for (const char* const object : {"constants", "definitions", "memory"})
     is_taken = is_taken || (spec.contains(object) && spec[object].contains(name));
-  if (is_taken)
-    throw SpecError("expected no other " + quote_text(name) + ", the state that keeps an input", pointer);
+  if (!is_taken) return;
+  throw SpecError(fmt::format("the name {} is taken, expected it free for the state that keeps {}",
+                              quote_text(name), quote_text(input)),
+                  pointer);
 }
 
 /// An input that is held, and the texts of which its state and its condition consist.
@@ -127,7 +130,7 @@ JsonDocument with_held_inputs(const JsonDocument& document, const std::string& t
   const Node hold = root["silence"]["hold"];
   for (const InputSpec& input : held_inputs(hold, inputs_of(spec, source))) {
     const HeldInput held(input);
-    check_name_is_free(spec, held.state_name(), hold.pointer());
+    check_name_is_free(spec, held.state_name(), input.name, hold.pointer());
     add(held, input.name, spec);
   }
   spec["silence"].erase("hold");

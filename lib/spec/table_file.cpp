@@ -132,6 +132,8 @@ class TableFile {
   }
 
   void find_columns() {
+    if (columns_.size() == 1 && columns_.front().find(';') != std::string::npos)
+      fail_at_line("expected commas between columns, found semicolons");
     for (const char* name : {"x", "value"}) {
       if (column(name) == columns_.size())
         fail_at_line(

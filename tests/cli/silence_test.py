@@ -267,7 +267,7 @@ class Cases(Case):
             ("'w' is not an input (/silence/hold/0)", ["w"], {}),
             ("the input 'u' is listed twice (/silence/hold/1)", ["u", "u"], {}),
             ("expected \"all\" or a list of inputs, found 'u' (/silence/hold)", "u", {}),
-            ("expected no other 'u_held', the state that keeps an input (/silence/hold)", "all", {"constants": {"u_held": 1}}),
+            ("the name 'u_held' is taken, expected it free for the state that keeps 'u' (/silence/hold)", "all", {"constants": {"u_held": 1}}),
         ):  # fmt: skip
             with self.subTest(message=message):
                 self.write("spec.json", self.hold(hold, **more))

@@ -212,6 +212,7 @@ class Cases(Case):
         self.assert_fails(3, "drag.csv: no such file (/tables/drag/file)", "validate", "s.json")
         for text, what in {
             "": "expected a line with the columns 'x' and 'value', found nothing",
+            "x;value\n1,5;2\n": "line 1, expected commas between columns, found semicolons",
             "x,y\n1,2\n": "line 1, expected a column 'value', found 'x' and 'y'",
             "# speed\nx,value\n1,2\n\n2,x\n": "line 5, expected a number, found 'x'",
             "x,value\n1,\n": "line 2, expected a number, found ''",

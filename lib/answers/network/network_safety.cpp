@@ -28,7 +28,7 @@ class Operators {
           std::make_unique<IndependentActions<Level>>(projections, *controller.invariant, team.size()));
     };
     for (std::size_t p = 0; p < problem.partitions.size(); ++p) {
-      if (!problem.rules.empty() && problem.rules[p] != nullptr) {
+      if (problem.rules[p] != nullptr) {
         add(*problem.rules[p]);
         continue;
       }

@@ -29,8 +29,8 @@ struct NetworkProblem {
       nullptr;  ///< G of a goal that ends the task, which is in every W(q); null: there is none
   const RowHull* hull = nullptr;
   std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each
-  /// [partition] A(x) in K of agents that act by rules; null, or none at all: they choose from IND_C(x). The
-  /// objects outlive this one.
+  /// [partition] A(x) in K of agents that act by rules; null: they choose from IND_C(x). The objects outlive
+  /// this one.
   std::vector<const Projections*> rules;
   std::vector<NetworkMode> modes;
   bool resynthesise = false;

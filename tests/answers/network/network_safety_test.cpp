@@ -35,6 +35,7 @@ class NetworkOfThreeCells : public testing::Test {
         .invariant = &fast_.invariance.invariant,
         .hull = &fast_.hull,
         .partitions = {{whole_class(fast_.abstraction.inputs)}, single_classes(fast_.abstraction.inputs)},
+        .rules = {nullptr, nullptr},
         .modes = std::move(modes),
         .resynthesise = resynthesise};
     std::vector<Cells> result;
