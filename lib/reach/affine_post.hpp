@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "model/odometer.hpp"
@@ -68,6 +70,17 @@ struct AffinePost {
   void fill(TransitionTable& table, std::int64_t base, const Entry& entry) const {
     for_each_entry(table, base, [&](IndexRange* held, const std::vector<std::int64_t>& cell) {
       if (held != nullptr) *held = entry(cell);
+    });
+  }
+  /// Cuts entries at the ends of what `entry` returns for them, if it returns a range, and nothing where no
+  /// cell would be left.
+  template <class Entry>
+  void narrow(TransitionTable& table, std::int64_t base, const Entry& entry) const {
+    for_each_entry(table, base, [&](IndexRange* held, const std::vector<std::int64_t>& cell) {
+      if (held == nullptr) return;
+      const std::optional<IndexRange> range = entry(cell);
+      if (!range || range->first > held->last || range->last < held->first) return;
+      *held = {std::max(held->first, range->first), std::min(held->last, range->last)};
     });
   }
   /// As fill(), but `entry` is called for cells that are not held too.

@@ -222,7 +222,30 @@ class TableBuilder {
       }
       return cells_meeting(target, spec_.abstraction.cells, lower, upper, attained);
     });
+    if (tube_ != nullptr && !target.periodic()) narrow_tubes(*row, base);
     return true;
+  }
+
+  /// A state that moves in one direction only is between its ends all the time, wherever limits stop others.
+  void narrow_tubes(const StoppedRow& row, std::int64_t base) {
+    const auto& moving = dependencies_.moving;
+    const auto own = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state_));
+    post_.narrow(*tube_, base, [&](const std::vector<std::int64_t>& cell) -> std::optional<IndexRange> {
+      Rational lower = row.lower, upper = row.upper, slowest = 0, fastest = 0;
+      for (std::size_t j = 0; j < cell.size(); ++j) {
+        const StoppedRow::Part& part = row.parts[j][at(cell[j])];
+        lower += part.lower;
+        upper += part.upper;
+        slowest += part.slowest;
+        fastest += part.fastest;
+      }
+      const bool is_monotone =
+          row.rate && (row.rate->first + slowest >= 0 || row.rate->second + fastest <= 0);
+      if (!row.is_stopped && !is_monotone) return std::nullopt;
+      const Piece start =
+          post_.pieces_of(state_, cell[static_cast<std::size_t>(own - moving.begin())]).front();
+      return cells_covering(grid_[state_], std::min(start.lower, lower), std::max(start.upper, upper));
+    });
   }
 
   void fill_points(const AffinePost& post, const SampledRow& row, const std::vector<Rational>& slots,

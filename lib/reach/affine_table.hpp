@@ -19,8 +19,9 @@ namespace coordreq {
                                                      ThreadTeam& team);
 
 /// Puts exact posts, and tubes, into a table made otherwise: those of cells from which, with one input, no
-/// state can come to a limit that would stop it. Nothing where the system would not be exactly solvable
-/// without its limits, or has none.
+/// state can come to a limit that would stop it. Where limits stop integrators alone, all posts, and tubes
+/// that the ends of a motion tell. Nothing where the system would not be exactly solvable without its limits,
+/// or has none.
 void fill_cells_off_limits(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                            std::size_t state, ThreadTeam& team);
 

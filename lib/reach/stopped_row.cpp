@@ -95,7 +95,11 @@ class RowMaker {
     for (std::size_t j = 0; j < moving_.size(); ++j) {
       if (stops(j) && !is_integrator(j)) return std::nullopt;
     }
-    StoppedRow row{.parts = {}, .lower = drift(), .upper = drift()};
+    const auto own = std::find(moving_.begin(), moving_.end(), static_cast<std::int32_t>(state_));
+    own_ = static_cast<std::size_t>(own - moving_.begin());
+    StoppedRow row{.parts = {}, .lower = drift(), .upper = drift(), .is_stopped = stops(own_)};
+    if (forms_[own_]->lower == forms_[own_]->upper && !is_moved_by_free_states())
+      row.rate.emplace(rate(own_, false), rate(own_, true));
     if (!add_disturbances(row)) return std::nullopt;
     for (std::size_t j = 0; j < moving_.size(); ++j) {
       std::optional<std::vector<StoppedRow::Part>> parts = stops(j) ? of_stopped(j) : of_free(j);
@@ -109,6 +113,16 @@ class RowMaker {
   [[nodiscard]] const GridDimension& dimension(std::size_t j) const { return grid_[at(moving_[j])]; }
   [[nodiscard]] bool stops(std::size_t j) const {
     return dimension(j).below == Outside::stop || dimension(j).above == Outside::stop;
+  }
+  [[nodiscard]] bool is_moved_by_free_states() const {
+    for (std::size_t j = 0; j < moving_.size(); ++j) {
+      if (!stops(j) && slope(j) != 0) return true;
+    }
+    return false;
+  }
+  /// Of x_i' in a state.
+  [[nodiscard]] Rational slope(std::size_t j) const {
+    return forms_[own_]->state(static_cast<Eigen::Index>(j));
   }
   [[nodiscard]] bool is_integrator(std::size_t j) const {
     const AffineForm& form = *forms_[j];
@@ -198,6 +212,7 @@ class RowMaker {
       rises = plain > 0;
     }
     const Integrator integrator(dimension(j), tau, std::move(kernel));
+    const Integrator itself(dimension(j), tau, std::nullopt);
     const Rational fastest = rate(j, rises);
     const Rational slowest = rate(j, !rises);
     const Rational reach = dimension(j).radius() + dimension(j).measurement_error;
@@ -208,9 +223,14 @@ class RowMaker {
       const Rational& low = rises ? place.lower : place.upper;
       // A cell that is cut at a limit has that end, as a cell without its upper end has not.
       const bool is_cut = integrator.top() && dimension(j).point(k) + reach > *integrator.top();
-      parts.push_back({.lower = integrator.from(low, slowest),
-                       .upper = integrator.from(high, fastest),
-                       .attained = !rises || is_cut || integrator.is_flat_below(high, fastest)});
+      StoppedRow::Part& part = parts.emplace_back(
+          StoppedRow::Part{.lower = integrator.from(low, slowest),
+                           .upper = integrator.from(high, fastest),
+                           .attained = !rises || is_cut || integrator.is_flat_below(high, fastest)});
+      const Rational least = slope(j) * std::min(place.lower, itself.from(place.lower, rate(j, false)));
+      const Rational most = slope(j) * std::max(place.upper, itself.from(place.upper, rate(j, true)));
+      part.slowest = std::min(least, most);
+      part.fastest = std::max(least, most);
     }
     return parts;
   }
@@ -220,6 +240,7 @@ class RowMaker {
   const std::vector<std::int32_t>& moving_;
   const std::vector<std::int32_t>& disturbances_;
   std::size_t state_;
+  std::size_t own_ = 0;  ///< its place among the moving states
   std::optional<NilpotentFlow> flow_;
   std::vector<std::optional<AffineForm>> forms_;  ///< [moving state]
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "model/dependencies.hpp"
@@ -23,11 +24,16 @@ struct StoppedRow {
   struct Part {
     Rational lower;
     Rational upper;
-    bool attained = true;  ///< `upper`, from a cell without its upper end
+    bool attained = true;               ///< `upper`, from a cell without its upper end
+    Rational slowest = 0, fastest = 0;  ///< to x_i', at any time of the period
   };
   std::vector<std::vector<Part>> parts;  ///< [moving state][index]
   Rational lower;
   Rational upper;
+  /// Whether x_i is stopped itself: it then is between its ends all the time.
+  bool is_stopped = false;
+  /// What `slowest` and `fastest` of the parts lack; nothing if x_i' depends on states that are not stopped.
+  std::optional<std::pair<Rational, Rational>> rate;
 };
 
 /// @param slots exact values of parameters and inputs at their slots

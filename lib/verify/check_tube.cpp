@@ -11,12 +11,12 @@
 
 namespace coordreq {
 
-IndexRange cells_covered(const GridDimension& dimension, const Rational& lower, const Rational& upper) {
+IndexRange cells_needed(const GridDimension& dimension, const Rational& lower, const Rational& upper) {
   REQUIRES(lower <= upper);
   const Rational reach = dimension.radius() + dimension.measurement_error;
   const std::int64_t first = floor_to_int((lower - dimension.first + reach) / dimension.step);
   const std::int64_t last = ceil_to_int((upper - dimension.first - reach) / dimension.step);
-  return {saturate_index(first), saturate_index(std::max(first, last))};
+  return {saturate_index(first), saturate_index(last)};
 }
 
 TubeTally::TubeTally(const PostQuestion& question)
@@ -40,7 +40,8 @@ bool TubeTally::is_enough(std::int64_t place, std::int64_t by, const std::vector
 bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& tubes) const {
   IndexRange all = moved(tubes.front().outer, by);
   for (const OwnTube& tube : tubes) {
-    if (tube.outer != tube.inner) return false;
+    const OwnTube least = OwnTube::of(tube.inner, tube.inner);
+    if (tube.outer != least.outer) return false;
     all = both_of(all, moved(tube.outer, by), dimension_);
   }
   return holds(dimension_, all, claimed);
@@ -57,7 +58,7 @@ void TubeTally::add(std::int64_t place, std::int64_t by, const std::vector<OwnTu
   for (const OwnTube& tube : tubes) {
     const IndexRange needed = moved(tube.inner, by);
     if (holds(dimension_, claimed, needed)) continue;
-    tally_.add_wrong(place, [&] { return text_of(place, needed); });
+    tally_.add_wrong(place, [&] { return text_of(place, OwnTube::of(needed, needed).outer); });
     return;
   }
   tally_.add_unproven(place, [&] {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <optional>
 #include <string>
@@ -13,15 +14,22 @@
 
 namespace coordreq {
 
-/// Raw indices of the fewest cells, each closed and widened by the measurement error, that together cover
-/// [lower, upper]. @pre lower <= upper
-[[nodiscard]] IndexRange cells_covered(const GridDimension& dimension, const Rational& lower,
-                                       const Rational& upper);
+/// Raw indices of the cells, each closed and widened by the measurement error, that cover [lower, upper]
+/// together: they begin at the first of these or before it and end at the last or behind it. Wide cells
+/// overlap; where one of them covers all, first > last. @pre lower <= upper
+[[nodiscard]] IndexRange cells_needed(const GridDimension& dimension, const Rational& lower,
+                                      const Rational& upper);
 
 /// The verifier's bounds of the cells that cover all states between the samples, from one piece of a cell.
 struct OwnTube {
   IndexRange outer;  ///< these are enough
-  IndexRange inner;  ///< these are needed
+  IndexRange inner;  ///< these are needed, as cells_needed() says
+
+  /// From bounds as of cells_needed(): of wide cells each of which covers all, the one of the greatest index
+  /// is enough.
+  [[nodiscard]] static OwnTube of(IndexRange enough, IndexRange needed) {
+    return {{enough.first, std::max(enough.first, enough.last)}, needed};
+  }
 };
 
 /// The finding about the tubes of one state.

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "model/odometer.hpp"
 #include "spec/system_spec.hpp"
+#include "verify/check_tube.hpp"
 #include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
 
@@ -42,6 +43,22 @@ class CornerPosts {
         cells_(grid_, influences_, table_) {}
 
   std::optional<PostTable> run(ThreadTeam& team) {
+    if (!fill_all(team)) return std::nullopt;
+    for (IndexRange& range : table_.entries)
+      range = with_measurements_at_limits(target_, spec_.abstraction.cells, range);
+    return std::move(table_);
+  }
+
+  std::optional<PostTable> run_tubes(ThreadTeam& team) {
+    are_tubes_ = true;
+    if (target_.discrete || target_.periodic() || !row_of(influences_, state_) || !fill_all(team))
+      return std::nullopt;
+    return std::move(table_);
+  }
+
+ private:
+  /// @returns whether the map is affine for all inputs and parameters
+  bool fill_all(ThreadTeam& team) {
     const ParameterChoices choices(spec_, grid_, inputs_, influences_, table_);
     std::atomic<bool> affine = true;
     std::atomic<bool> exact = true;
@@ -57,14 +74,10 @@ class CornerPosts {
         }
       }
     });
-    if (!affine) return std::nullopt;
     table_.exact = exact;
-    for (IndexRange& range : table_.entries)
-      range = with_measurements_at_limits(target_, spec_.abstraction.cells, range);
-    return std::move(table_);
+    return affine;
   }
 
- private:
   void fill(const SampledMap& map, std::int64_t base) {
     std::vector<Contribution> parts;
     const bool cut = jumps_at_a_seam(map);
@@ -77,7 +90,7 @@ class CornerPosts {
     }
     for (const StoppedPart& stopped : map.stopped) parts[stopped.moving].stopped = &stopped;
     cells_.for_each(base, std::nullopt, [&](const std::vector<std::int64_t>& cell, std::int64_t place) {
-      table_.entries[*table_.find(place)] = post(map, parts, cell);
+      table_.entries[*table_.find(place)] = are_tubes_ ? tube(map, parts, cell) : post(map, parts, cell);
     });
   }
 
@@ -158,11 +171,59 @@ class CornerPosts {
     return *range;
   }
 
+  [[nodiscard]] IndexRange tube(const SampledMap& map, std::vector<Contribution>& parts,
+                                const std::vector<std::int64_t>& cell) const {
+    const std::size_t own = row_of(influences_, state_).value();
+    if (!map.rate || !map.exact || (parts[own].stopped == nullptr && !keeps_direction(map, parts, cell)))
+      return kUnknownTube;
+    std::vector<const Contribution::Ends*> box;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      const auto& ends = ends_of(parts[j], cell[j]);
+      if (ends.size() > 1) return kUnknownTube;
+      box.push_back(&ends.front());
+    }
+    const RationalInterval end = hull_of_corners(box);
+    const RationalInterval start = parts_of(target_, cell[own]).front();
+    return cells_needed(target_, std::min(start.lower, Rational(end.lower + map.lower)),
+                        std::max(start.upper, Rational(end.upper + map.upper)));
+  }
+
+  /// Whether the derivative has one sign, wherever the states that are stopped can be during the period.
+  [[nodiscard]] bool keeps_direction(const SampledMap& map, const std::vector<Contribution>& parts,
+                                     const std::vector<std::int64_t>& cell) const {
+    Rational least = map.rate->slowest, greatest = map.rate->fastest;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      const Rational& slope = map.rate->slope[j];
+      if (slope == 0) continue;
+      if (parts[j].stopped == nullptr) return false;
+      const GridDimension& dimension = grid_[parts[j].source];
+      RationalInterval range = parts_of(dimension, cell[j]).front();
+      const Rational& tau = spec_.dynamics.period;
+      range.lower = std::min(range.lower, Rational(range.lower + parts[j].stopped->slowest * tau));
+      range.upper = std::max(range.upper, Rational(range.upper + parts[j].stopped->fastest * tau));
+      if (dimension.below == Outside::stop) range.lower = std::max(range.lower, dimension.first);
+      if (dimension.above == Outside::stop)
+        range.upper = std::min(range.upper, dimension.point(dimension.count - 1));
+      least += slope > 0 ? slope * range.lower : slope * range.upper;
+      greatest += slope > 0 ? slope * range.upper : slope * range.lower;
+    }
+    return least >= 0 || greatest <= 0;
+  }
+
   [[nodiscard]] IndexRange met_from(const SampledMap& map,
                                     const std::vector<const Contribution::Ends*>& box) const {
     const bool attained =
         !map.exact ||
         std::all_of(box.begin(), box.end(), [](const Contribution::Ends* ends) { return ends->attained; });
+    const RationalInterval hull = hull_of_corners(box);
+    const Rational &least = hull.lower, &greatest = hull.upper;
+    const Rational error = target_.measurement_error;
+    if (target_.discrete) return index_of(least + map.lower, greatest + map.upper);
+    return cells_met(target_, spec_.abstraction.cells, least + map.lower - error,
+                     greatest + map.upper + error, attained);
+  }
+
+  [[nodiscard]] static RationalInterval hull_of_corners(const std::vector<const Contribution::Ends*>& box) {
     Rational least = 0;
     Rational greatest = 0;
     for (std::uint64_t corner = 0; corner < std::uint64_t{1} << box.size(); ++corner) {
@@ -172,10 +233,7 @@ class CornerPosts {
       if (corner == 0 || value < least) least = value;
       if (corner == 0 || value > greatest) greatest = value;
     }
-    const Rational error = target_.measurement_error;
-    if (target_.discrete) return index_of(least + map.lower, greatest + map.upper);
-    return cells_met(target_, spec_.abstraction.cells, least + map.lower - error,
-                     greatest + map.upper + error, attained);
+    return {.lower = least, .upper = greatest};
   }
 
   [[nodiscard]] IndexRange index_of(const Rational& lower, const Rational& upper) const {
@@ -196,6 +254,7 @@ class CornerPosts {
   Influences influences_;
   PostTable table_;
   CellsOfTable cells_;
+  bool are_tubes_ = false;
 };
 
 }  // namespace
@@ -204,6 +263,12 @@ std::optional<PostTable> corner_posts(const SystemSpec& spec, const UniformGrid&
                                       const InputSpace& inputs, std::size_t state,
                                       const std::vector<std::int64_t>& cells, ThreadTeam& team) {
   return CornerPosts(spec, grid, inputs, state, cells).run(team);
+}
+
+std::optional<PostTable> tubes_between_ends(const SystemSpec& spec, const UniformGrid& grid,
+                                            const InputSpace& inputs, std::size_t state,
+                                            const std::vector<std::int64_t>& cells, ThreadTeam& team) {
+  return CornerPosts(spec, grid, inputs, state, cells).run_tubes(team);
 }
 
 }  // namespace coordreq

@@ -112,11 +112,10 @@ class CornerTubes {
   [[nodiscard]] OwnTube tube_from(const TimedMap& map, const std::vector<const TimedPart::Ends*>& box) const {
     const FloorOfLeast first = least_over_corners(map, box, false);
     const FloorOfLeast last = least_over_corners(map, box, true);
-    // Wide cells overlap, and one of them may cover all: then the greater index is the one to stand for it.
     const auto range = [](std::int64_t low, std::int64_t high) {
-      return IndexRange{saturate_index(low), saturate_index(std::max(low, high))};
+      return IndexRange{saturate_index(low), saturate_index(high)};
     };
-    return {range(first.outer, -last.outer), range(first.inner, -last.inner)};
+    return OwnTube::of(range(first.outer, -last.outer), range(first.inner, -last.inner));
   }
 
   /// floor of the least value in steps plus the reach of a cell; of all values negated if `upper`.

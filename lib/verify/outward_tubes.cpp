@@ -7,6 +7,7 @@
 #include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/flow_range.hpp"
+#include "verify/own_posts.hpp"
 #include "verify/piece_choices.hpp"
 
 namespace coordreq {
@@ -17,7 +18,8 @@ constexpr Effort kEfforts[] = {{1, 1e-4}, {2, 1e-4}, {4, 1e-5}, {8, 1e-5}, {16, 
 class OutwardTubes {
  public:
   explicit OutwardTubes(const PostQuestion& question)
-      : spec_(*question.spec),
+      : question_(question),
+        spec_(*question.spec),
         state_(question.state),
         target_((*question.grid)[state_]),
         claimed_(*question.claimed),
@@ -42,6 +44,9 @@ class OutwardTubes {
   }
 
   TubeFinding run(Budget& budget, ThreadTeam& team) {
+    if (has_stops(spec_, influences_))
+      between_ends_ =
+          tubes_between_ends(spec_, *question_.grid, *question_.inputs, state_, *question_.cells, team);
     std::vector<std::unique_ptr<FlowExtremes>> flows(static_cast<std::size_t>(team.size()));
     const auto count = static_cast<std::int64_t>(asked_.size());
     constexpr std::int64_t kBlock = 1024;
@@ -67,9 +72,10 @@ class OutwardTubes {
     for (; !claimed_.find(place); place += stride) ++k;
     const bool unbounded = tally_.is_unbounded(place);
     std::vector<OwnTube> own;
+    const bool is_known = between_ends(place).has_value();
     bool is_cut_off = false;
     for (const Effort& effort : kEfforts) {
-      if (unbounded || tally_.is_enough(place, k, own)) break;
+      if (unbounded || is_known || tally_.is_enough(place, k, own)) break;
       is_cut_off = flow.work() >= end;
       if (is_cut_off) break;
       std::optional<std::vector<OwnTube>> next = tubes(choice, flow, effort);
@@ -77,11 +83,23 @@ class OutwardTubes {
     }
     for (; k < (alike_ ? target_.count : 1); ++k, place += stride) {
       if (!claimed_.find(place)) continue;
-      if (unbounded) tally_.add_unbounded();
-      if (unbounded) continue;
-      tally_.add(place, k, own);
-      if (is_cut_off) ++left_open_;
+      if (tally_.is_unbounded(place)) {
+        tally_.add_unbounded();
+      } else if (const std::optional<OwnTube> tube = between_ends(place)) {
+        tally_.add(place, 0, {*tube});
+      } else {
+        tally_.add(place, k, own);
+        if (is_cut_off) ++left_open_;
+      }
     }
+  }
+
+  /// The tube of an entry, where it follows from the ends of the motion alone.
+  [[nodiscard]] std::optional<OwnTube> between_ends(std::int64_t place) const {
+    if (!between_ends_) return std::nullopt;
+    const std::optional<std::size_t> entry = between_ends_->find(place);
+    if (!entry || between_ends_->entries[*entry] == kUnknownTube) return std::nullopt;
+    return OwnTube::of(between_ends_->entries[*entry], between_ends_->entries[*entry]);
   }
 
   [[nodiscard]] std::optional<std::vector<OwnTube>> tubes(const Odometer& choice, FlowExtremes& flow,
@@ -117,9 +135,10 @@ class OutwardTubes {
     Rational high = place.upper;
     if (range.low) low = std::min(low, Rational(base_lower + range.low->upper_rational()));
     if (range.high) high = std::max(high, Rational(base_upper + range.high->lower_rational()));
-    return {cells_covered(target_, lower, upper), cells_covered(target_, low, high)};
+    return OwnTube::of(cells_needed(target_, lower, upper), cells_needed(target_, low, high));
   }
 
+  const PostQuestion& question_;
   const SystemSpec& spec_;
   std::size_t state_;
   const GridDimension& target_;
@@ -130,6 +149,7 @@ class OutwardTubes {
   std::vector<std::int64_t> asked_;  ///< numbers of choices
   SpanBox slots_;
   TubeTally tally_;
+  std::optional<PostTable> between_ends_;              ///< tubes_between_ends(), where limits stop states
   std::atomic<std::int64_t> left_open_ = 0;            ///< tubes that are open for want of work
   std::size_t moving_ = 0;                             ///< place among the moving states
   std::size_t own_ = 0;                                ///< among the variables of choices_

@@ -34,6 +34,17 @@ namespace coordreq {
                                                     const InputSpace& inputs, std::size_t state,
                                                     const std::vector<std::int64_t>& cells, ThreadTeam& team);
 
+/// An entry of tubes_between_ends() that the ends do not tell.
+constexpr IndexRange kUnknownTube{INT32_MAX, INT32_MIN};
+
+/// The tubes that the ends of the motion tell: of a state that is stopped itself, or moves in one direction
+/// while limits stop others. Each entry as of cells_needed(), or kUnknownTube.
+/// @returns nothing if no entry is known
+[[nodiscard]] std::optional<PostTable> tubes_between_ends(const SystemSpec& spec, const UniformGrid& grid,
+                                                          const InputSpace& inputs, std::size_t state,
+                                                          const std::vector<std::int64_t>& cells,
+                                                          ThreadTeam& team);
+
 /// The table of a state that has an update, from its definition: every branch that a cell does not exclude.
 /// @throws SpecError if it may leave its grid
 [[nodiscard]] PostTable update_posts(const SystemSpec& spec, const UniformGrid& grid,

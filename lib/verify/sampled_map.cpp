@@ -37,7 +37,8 @@ std::optional<SampledMap> next_value(const SystemSpec& spec, const Influences& i
       affine_form(spec.dynamics.equations[state], variables_of(spec, influences), slots);
   if (!next) return std::nullopt;
   const std::size_t n = influences.moving.size();
-  SampledMap map{.coefficient = {}, .stopped = {}, .lower = next->constant, .upper = next->constant};
+  SampledMap map{
+      .coefficient = {}, .stopped = {}, .rate = {}, .lower = next->constant, .upper = next->constant};
   map.coefficient.assign(next->slope.begin(), next->slope.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t l = 0; l < influences.disturbances.size(); ++l) {
     const Rational& slope = next->slope[n + l];
@@ -207,7 +208,7 @@ class StoppedFlow {
     const std::optional<LinearFlow> flow = solved(equations_, row, influences_.disturbances.size());
     if (!flow) return std::nullopt;
     const Rational& tau = spec_.dynamics.period;
-    SampledMap map{.coefficient = std::vector<Rational>(n), .stopped = {}};
+    SampledMap map{.coefficient = std::vector<Rational>(n), .stopped = {}, .rate = rate_of(row)};
     for (std::size_t j = 0; j < n; ++j) {
       const TimePolynomial& response = flow->coefficient[j];
       if (!stops(j)) {
@@ -230,19 +231,25 @@ class StoppedFlow {
     return state.below == Outside::stop || state.above == Outside::stop;
   }
 
-  [[nodiscard]] std::optional<StoppedPart> part_of(std::size_t j, std::size_t row,
-                                                   const TimePolynomial& response) const {
-    StoppedPart part{.moving = j,
-                     .rises = true,
-                     .response = response,
-                     .slowest = equations_[j].constant,
-                     .fastest = equations_[j].constant};
+  [[nodiscard]] SampledMap::Rate rate_of(std::size_t j) const {
+    const auto begin = equations_[j].slope.begin();
+    SampledMap::Rate rate{.slope = {begin, begin + static_cast<std::ptrdiff_t>(equations_.size())},
+                          .slowest = equations_[j].constant,
+                          .fastest = equations_[j].constant};
     for (std::size_t l = 0; l < influences_.disturbances.size(); ++l) {
       const Rational& slope = equations_[j].slope[equations_.size() + l];
       const DisturbanceSpec& w = spec_.disturbances[influences_.disturbances[l]];
-      part.slowest += std::min(Rational(slope * w.lower), Rational(slope * w.upper));
-      part.fastest += std::max(Rational(slope * w.lower), Rational(slope * w.upper));
+      rate.slowest += std::min(Rational(slope * w.lower), Rational(slope * w.upper));
+      rate.fastest += std::max(Rational(slope * w.lower), Rational(slope * w.upper));
     }
+    return rate;
+  }
+
+  [[nodiscard]] std::optional<StoppedPart> part_of(std::size_t j, std::size_t row,
+                                                   const TimePolynomial& response) const {
+    const SampledMap::Rate rate = rate_of(j);
+    StoppedPart part{
+        .moving = j, .rises = true, .response = response, .slowest = rate.slowest, .fastest = rate.fastest};
     if (j == row) return part;
     // How x_i changes with v at any time: with one sign, or it is not monotone.
     const TimePolynomial kernel = response.derivative();
@@ -288,8 +295,11 @@ std::optional<SampledMap> flow_after_period(const SystemSpec& spec, const Influe
   const std::optional<LinearFlow> flow = linear_flow(spec, influences, state, slots);
   if (!flow) return std::nullopt;
   const Rational& tau = spec.dynamics.period;
-  SampledMap map{
-      .coefficient = {}, .stopped = {}, .lower = flow->drift.at(tau), .upper = flow->drift.at(tau)};
+  SampledMap map{.coefficient = {},
+                 .stopped = {},
+                 .rate = {},
+                 .lower = flow->drift.at(tau),
+                 .upper = flow->drift.at(tau)};
   for (const TimePolynomial& coefficient : flow->coefficient) map.coefficient.push_back(coefficient.at(tau));
   for (std::size_t l = 0; l < influences.disturbances.size(); ++l) {
     add_values(map, spec.disturbances[influences.disturbances[l]], flow->kernel[l], tau);

@@ -37,8 +37,16 @@ struct StoppedPart {
 /// One state a period later, as a function of the moving states x now:
 /// { sum_j coefficient[j] x_j + r : lower <= r <= upper }, and what comes of states that are stopped.
 struct SampledMap {
+  /// The derivative of the state: { sum_j slope[j] x_j + r : slowest <= r <= fastest }.
+  struct Rate {
+    std::vector<Rational> slope;  ///< one for each of Influences::moving
+    Rational slowest;
+    Rational fastest;
+  };
+
   std::vector<Rational> coefficient;  ///< one for each of Influences::moving; 0 for those that are stopped
   std::vector<StoppedPart> stopped;
+  std::optional<Rate> rate;  ///< where limits may stop states
   Rational lower;
   Rational upper;
   bool exact = true;  ///< every r is taken by some disturbance; else the range is an enclosure

@@ -202,6 +202,28 @@ class Cases(Case):
             self.assertGreater(self.kept(helped), 0)
             self.assertEqual(self.texts("analyze", helped, "standing"), [])
 
+    def test_a_motion_that_ends_on_a_face(self):
+        """A train at 8 m/s, 7.75 m before the wall, brakes to 7 m/s: it ends on the face of the last safe cell."""
+        states = [
+            {"name": "d", "lower": 0, "upper": 60, "step": 0.5, "outside": "unsafe"},
+            {"name": "v", "lower": 0, "upper": 8, "step": 0.25, "outside": "stop"},
+        ]
+        spec = {
+            "coordreq": 1, "name": "etcs", "states": states,
+            "inputs": [{"name": "a", "values": [-1, -0.5, 0, 0.5]}, {"name": "r", "values": [0, 1]}],
+            "agents": [{"name": "train", "inputs": ["a"]}, {"name": "rbc", "inputs": ["r"]}],
+            "dynamics": {"time": "continuous", "period": 1, "equations": {"d": "-v - r", "v": "a"}},
+            "safe": "d >= 0.25", "abstraction": {"cells": "half_open", "between_samples": True},
+        }  # fmt: skip
+        self.assertEqual(self.kept(spec), 0)
+        answer = json.loads(self.run_program("query", "out.h5", "--at", "d=8,v=8", "--json").stdout)
+        self.assertEqual(answer["collision_time"], 2)
+        self.assertIn(b"holds", self.run_program("verify", "out.h5", "--strict").stdout)
+        # With a face at the standstill the train can wait, at all times.
+        states[1].update(lower=-0.125, upper=8.125, origin=0.125)
+        self.assertEqual(self.kept(spec), 3231)
+        self.assertIn(b"holds", self.run_program("verify", "out.h5", "--strict").stdout)
+
     def heating(self, **state):
         return spec_with(
             states=[{"name": "T", "lower": 16, "upper": 26, "step": 0.25, **state}, Y],

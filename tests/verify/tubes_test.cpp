@@ -133,10 +133,21 @@ TEST(CheckTubes, EnclosuresOfDifferentialEquationsHold) {
 }
 
 TEST(CheckTubes, AStopHasEnclosuresOfTheVerifiersOwn) {
+  // The second moves a speed that a limit stops, in one direction.
+  for (const char* p : {"u", "0.25*p + v - 4"}) {
+    const Checked stopped = check(problem(p, "u", "true", "stop"));
+    EXPECT_TRUE(stopped.tubes.borrowed.empty());
+    EXPECT_FALSE(stopped.tubes.exact);
+    for (const Finding& finding : stopped.tubes.findings) EXPECT_EQ(finding.wrong, 0) << finding.check;
+  }
+}
+
+TEST(CheckTubes, OfAStoppedStateNoneCouldBeShorter) {
   const Checked stopped = check(problem("u", "0", "true", "stop"));
-  EXPECT_TRUE(stopped.tubes.borrowed.empty());
-  EXPECT_FALSE(stopped.tubes.exact);
-  for (const Finding& finding : stopped.tubes.findings) EXPECT_EQ(finding.wrong, 0) << finding.check;
+  EXPECT_EQ(doubtful(stopped.tubes), 0);
+  const auto [wrong, all] = wrong_of_shorter(stopped, 0, check_outward);
+  EXPECT_GT(all, 5);
+  EXPECT_EQ(wrong, all);
 }
 
 TEST(CheckTubes, ALimitIsPassedBehindTheLastCell) {
@@ -223,12 +234,19 @@ TEST(FlowRange, FinerStepsFindWhereItTurns) {
   EXPECT_NEAR(last, 0.5, 0.03);
 }
 
-TEST(CellsCovered, AFaceThatIsTouchedNeedsNoNeighbour) {
+TEST(CellsNeeded, AFaceThatIsTouchedNeedsNoNeighbour) {
   const GridDimension x{.name = "x", .first = 0, .step = 1, .count = 9};
   const Rational half = Rational(1) / 2;
-  EXPECT_EQ(cells_covered(x, 1 - half, 2 + half), (IndexRange{1, 2}));
-  EXPECT_EQ(cells_covered(x, half, half), (IndexRange{1, 1}));
-  EXPECT_EQ(cells_covered(x, half - Rational(1) / 100, 1), (IndexRange{0, 1}));
+  EXPECT_EQ(cells_needed(x, 1 - half, 2 + half), (IndexRange{1, 2}));
+  EXPECT_EQ(cells_needed(x, half, half), (IndexRange{1, 0}));  // either of two
+  EXPECT_EQ(cells_needed(x, half - Rational(1) / 100, 1), (IndexRange{0, 1}));
+}
+
+TEST(CellsNeeded, OfWideCellsOneIsEnoughWhicheverItIs) {
+  const GridDimension x{.name = "x", .first = 0, .step = 1, .count = 9, .measurement_error = 1};
+  const IndexRange needed = cells_needed(x, 2, 2);
+  EXPECT_EQ(needed, (IndexRange{3, 1}));
+  EXPECT_EQ(OwnTube::of(needed, needed).outer, (IndexRange{3, 3}));
 }
 
 }  // namespace
