@@ -19,9 +19,9 @@ _TEXTS = ("not safe", "safe, not invariant", "goal cannot be forced", "unbounded
 # Where so few cells take so many times as long as the others, these share the colours.
 _FEW = 0.02
 _FAR = 3
-_LABELS = "silence", "steps to the goal"
-# Of the way: what the cells hold, by what follows arrival.
-_WAYS = {"stay": "samples outside the goal", "return": "time to the next visit"}
+# Of the way, by what follows arrival: what the cells hold, what that is counted in, and the label of the bar.
+_WAYS = {"stay": ("samples outside the goal", "samples", "outside the goal"), "return": ("time to the next visit", "steps", "to the next visit")}
+_USUAL_WAY = ("time to the goal", "steps", "to the goal")
 _FEW_LINES = 12  # of more steps than that lines are drawn at some
 
 
@@ -29,6 +29,7 @@ _FEW_LINES = 12  # of more steps than that lines are drawn at some
 class Panel:
     title: str
     counts: str  # "steps" or "samples"
+    label: str  # of the bar
     way: bool  # steps of a way, and not of silence
     kinds: np.ndarray  # [x, y]
     steps: np.ndarray  # masked where `kinds` says all
@@ -37,6 +38,11 @@ class Panel:
     def most(self):
         """Steps of any cell."""
         return int(self.steps.max()) if self.steps.count() else 0
+
+    @property
+    def is_free(self):
+        """Of silence: unbounded wherever there is a way."""
+        return not self.steps.count() and bool((self.kinds == FREE).any())
 
     @property
     def shown(self):
@@ -65,15 +71,13 @@ def prepare(arguments):
         raise FileError('no /arrival in the file: analyse with a "goal"', results.path)
     partition = results.partition(arguments.partition)
     cut = make_cut(results, arguments, directions=2, fewest=1)
-    then = results.spec.goal_then
-    panels = [
-        _panel(_WAYS.get(then, "time to the goal"), "samples" if then == "stay" else "steps", True, cut.read("/arrival"), results.flags("/arrival")),
-        _panel("silence that costs no time", "steps", False, cut.read("/approach_delay", partition), results.flags("/approach_delay")),
-    ]
-    return Goal(cut, results.partitions[partition], panels)
+    way = _panel(_WAYS.get(results.spec.goal_then, _USUAL_WAY), True, cut.read("/arrival"), results.flags("/arrival"))
+    words = ("silence that costs no time", "steps", "silence")
+    silence = _panel(words, False, cut.read("/approach_delay", partition), results.flags("/approach_delay"))
+    return Goal(cut, results.partitions[partition], [way] if silence.is_free else [way, silence])
 
 
-def _panel(title, counts, way, values, flags):
+def _panel(words, way, values, flags):
     values = values.reshape(len(values), -1).astype(int)
     kinds = np.full(values.shape, -1)
     kinds[values == flags["not_safe"]] = NOT_SAFE
@@ -81,7 +85,7 @@ def _panel(title, counts, way, values, flags):
     kinds[values == flags["goal_cannot_be_forced"]] = NO_WAY
     if "unbounded" in flags:
         kinds[values == flags["unbounded"]] = FREE
-    return Panel(title, counts, way, kinds, np.ma.masked_where(kinds >= 0, values))
+    return Panel(*words, way, kinds, np.ma.masked_where(kinds >= 0, values))
 
 
 def _lines(axes, panel, cut):
@@ -89,7 +93,8 @@ def _lines(axes, panel, cut):
 
 
 def draw(goal, size=None):
-    """Each panel has colours and a scale of its own: the way may take a hundred times as long as silence may last."""
+    """Each panel has colours and a scale of its own: the way may take a hundred times as long as silence may last. Where silence
+    never costs time, one line says so."""
     results, cut = goal.cut.results, goal.cut
     figure = style.new_figure(size, (0.8 + 4.4 * len(goal.panels), 4.3))
     grid = figure.subplots(1, len(goal.panels), squeeze=False, sharex=True, sharey=True)
@@ -104,13 +109,13 @@ def draw(goal, size=None):
     for axes, panel in zip(grid.flat, goal.panels):
         if panel.steps.count():
             lines = _lines(axes, panel, cut) if panel.shown > _FEW_LINES else None
-            label = _LABELS[panel.way] if panel.counts == "steps" else "outside the goal"
             bar = style.add_step_bar(
-                figure, axes, panel.shown, label, results, is_cut=panel.shown < panel.most, way=panel.way, unit=panel.counts
+                figure, axes, panel.shown, panel.label, results, is_cut=panel.shown < panel.most, way=panel.way, unit=panel.counts
             )
             if lines is not None:
                 bar.add_lines(lines)
-    style.add_title(figure, f"{results.title}, {goal.partition}", cut.title)
+    free = "" if len(goal.panels) > 1 else "silence costs no time"
+    style.add_title(figure, f"{results.title}, {goal.partition}", cut.title, free)
     found = {int(kind) for panel in goal.panels for kind in np.unique(panel.kinds)}
     style.legend_below(figure, [(_COLORS[kind], _TEXTS[kind]) for kind in sorted(found - {-1})])
     return figure

@@ -19,6 +19,7 @@ KINDS = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#f0e
 
 _FEW_POINTS = 8  # with a tick each
 _LEGEND_FONT = 8.33  # points, "small"
+_MOTTLED = 0.02  # of the cells: more such are too many for lines
 _LARGEST_RATIO = 5  # of the sides of a picture in scale
 
 
@@ -111,12 +112,22 @@ def add_power_bar(figure, axes, powers, cmap, norm, label, is_below):
 
 
 def step_lines(axes, steps, most, cut, color="white"):
-    """Lines where the ticks of the colour bar are, between cells; None for a single state, or without a line."""
+    """Lines where the ticks of the colour bar are, between cells; None for a single state, or without a line, or where they would
+    cover much of the picture."""
     ticks = [k for k in whole_steps(most) if steps.min() < k <= steps.max()]
     if len(cut.axes) < 2 or min(steps.shape) < 2 or not ticks:
         return None
+    if _is_mottled(np.ma.filled(steps, 0), ticks):
+        return None
     centres = [(axis.edges[:-1] + axis.edges[1:]) / 2 for axis in cut.axes]
     return axes.contour(*centres, steps.T, levels=[k - 0.5 for k in ticks], colors=color, linewidths=0.6, alpha=0.7)
+
+
+def _is_mottled(steps, ticks):
+    """Whether many cells lie below a tick, and both neighbours above it, or the other way round."""
+    changes = [np.sign(np.diff(np.digitize(steps, ticks), axis=axis)) for axis in (0, 1)]
+    turns = changes[0][1:] * changes[0][:-1], changes[1][:, 1:] * changes[1][:, :-1]
+    return sum((turn < 0).sum() for turn in turns) > _MOTTLED * steps.size
 
 
 def _image(extent):

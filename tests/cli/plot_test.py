@@ -317,6 +317,22 @@ class Cases(PlotCase):
         self.assertEqual(figure.axes[0].images[1].norm.vmax, 108.5)
         self.assertIn("up to 20000 steps (10000 s)", titles(figure)[1])
 
+    def test_goal_says_in_one_line_that_silence_costs_no_time(self):
+        self.analyzed(spec_with(goal="x <= 1 and y <= 1"))
+        self.rewrite(lambda file: file["approach_delay"].__setitem__(..., UNBOUNDED))
+        data, figure = self.plotted("goal")
+        self.assertEqual([panel.title for panel in data.panels], ["time to the goal"])
+        self.assertTrue(titles(figure)[0].endswith("\nsilence costs no time"))
+
+    def test_goal_has_no_lines_around_single_cells(self):
+        steps = np.add.outer(np.arange(5), np.arange(5)) * 5
+        mottled = np.where(np.indices((5, 5)).sum(0) % 2, steps, 0)
+        for arrival, has_lines in ((steps, True), (mottled, False)):
+            self.analyzed(spec_with(goal="x <= 1 and y <= 1"))
+            self.rewrite(lambda file, arrival=arrival: file["arrival"].__setitem__(..., arrival))
+            _, figure = self.plotted("goal")
+            self.assertEqual(len(figure.axes[0].collections) > 0, has_lines)
+
     # risk
 
     def test_risk_is_by_powers_of_ten(self):
