@@ -32,7 +32,7 @@ class Cases(Case):
             for path in EXAMPLES
             for command in re.findall(r"(?m)^// +coordreq analyze (.* --set .*)$", path.read_text())
         ]
-        self.assertEqual(len(commands), 8)
+        self.assertEqual(len(commands), 9)
         for example, *settings in commands:
             with self.subTest(example=example, settings=settings):
                 result = self.run_program("validate", str(ROOT / example), *settings)

@@ -18,7 +18,7 @@ GRIDS = (DOCS / "how-to/grids.md").read_text()
 SESSIONS = {
     "how-to/coalitions.md": (2, []),
     "reference/commands.md": (1, []),
-    "how-to/goals-and-memory.md": (3, []),
+    "how-to/goals-and-memory.md": (4, []),
     "how-to/grids.md": (1, []),
     "how-to/logs.md": (1, ["crossing.json"]),
     "how-to/networks.md": (1, []),
@@ -49,6 +49,9 @@ class Cases(PageCase):
 
     def test_sessions_of_commands(self):
         self.assert_sessions("reference/commands.md")
+
+    def test_sessions_of_goals_and_memory(self):
+        self.assert_sessions("how-to/goals-and-memory.md")
 
     def test_sessions_of_grids(self):
         self.assert_sessions("how-to/grids.md")
