@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "answers/step_codes.hpp"
+
 namespace coordreq {
 
 std::string csv_steps(std::int32_t steps) {
-  return steps == ResultsReader::kNever ? "inf" : std::to_string(steps);
+  return steps == kUnbounded ? "inf" : std::to_string(steps);
 }
 
 std::string answer_column(const std::string& name, const ResultsReader& results) {

@@ -8,6 +8,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/one_cell/action_words.hpp"
 #include "answers/requirements/answer.hpp"
+#include "answers/step_codes.hpp"
 #include "app/query_values.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
@@ -49,7 +50,7 @@ Json remedy_json(const DelayExplanation::Remedy& remedy, std::size_t partition,
                {"inputs", Json::object()}};
   for (std::size_t i = 0; i < inputs.size(); ++i)
     json["inputs"][spec.inputs[static_cast<std::size_t>(inputs[i])].name] = nearest_double(values[i]);
-  add_delay(json, remedy.delay, remedy.delay != ResultsReader::kNever);
+  add_delay(json, remedy.delay, remedy.delay != kUnbounded);
   return json;
 }
 

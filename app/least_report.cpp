@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "answers/step_codes.hpp"
 #include "app/query_values.hpp"
 #include "app/render.hpp"
 #include "spec/problem_spec.hpp"
@@ -32,7 +33,7 @@ Json least_json(const LeastSteps& found, const Field& field, std::size_t partiti
                {"period", nearest_double(spec.dynamics.period)},
                {"period_unit", spec.dynamics.unit},
                {"pairs", found.pairs}};
-  json["least"] = found.least == ResultsReader::kNever ? Json() : Json(found.least);
+  json["least"] = found.least == kUnbounded ? Json() : Json(found.least);
   json["least_status"] = is_lower_bound ? "at_least" : status_of(field, found.least);
   json["pair"] = found.pair;
   if (at_least) {

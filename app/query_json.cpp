@@ -3,6 +3,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/plan.hpp"
+#include "answers/step_codes.hpp"
 #include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
@@ -47,7 +48,7 @@ Json outside_json(const UniformGrid& grid, const Location& location) {
 /// A number of steps, or null and a word why there is none.
 void add_steps(Json& json, const std::string& name, std::int32_t steps, const std::string& status,
                const ResultsReader& results) {
-  const bool finite = steps >= 0 && steps != ResultsReader::kNever;
+  const bool finite = steps >= 0 && steps != kUnbounded;
   const Rational time = results.spec().dynamics.period * Rational(static_cast<long>(steps));
   json[name] = finite ? Json(steps) : Json();
   json[name + "_time"] = finite ? Json(nearest_double(time)) : Json();
@@ -168,7 +169,7 @@ Json answer_json(const StateAnswer& answer, const QueryForm& form) {
   json["cell"] = inside ? cell_json(results.grid(), answer.location) : Json();
   json["safe"] = is_in(paths::kSafe);
   json["invariant"] = is_in(paths::kInvariant);
-  const bool leaves = inside && answer.value(paths::kCollisionTime) != ResultsReader::kNever;
+  const bool leaves = inside && answer.value(paths::kCollisionTime) != kUnbounded;
   json["collision_time"] = leaves ? Json(answer.value(paths::kCollisionTime)) : Json();
   json["partitions"] = Json::array();
   for (std::size_t p = 0; inside && p < results.partitions().size(); ++p)

@@ -43,10 +43,10 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
     return all;
   }
   Answers answers(model);
-  run_stages(context_stages(model.spec()), answers, {.team = team});
+  run_stages(context_answer.stages(model.spec()), answers, {.team = team});
   if (posts > 0 && answers.context.safe_cells == 0)
     all.push_back({"empty", "/safe", "the safe set is empty on this grid"});
-  if (finds_invariance) run_stages(invariance_stages(model.spec()), answers, {.team = team});
+  if (finds_invariance) run_stages(invariance_answer.stages(model.spec()), answers, {.team = team});
   add(advise_on_posts(answers.context, motion), all);
   add(advise_on_numbering(answers.context), all);
   add(advise_on_unseen_motion(answers.context,

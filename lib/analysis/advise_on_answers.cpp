@@ -219,8 +219,8 @@ Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
   limit.spend(work_of_tables(model) + cells * work_of_visit(model));
   SweepMeter meter(work_of_visit(model), limit);
   Answers answers(model);
-  std::vector<Stage> stages = context_stages(spec);
-  for (const auto& more : {invariance_stages(spec), layers_stages(spec)})
+  std::vector<Stage> stages = context_answer.stages(spec);
+  for (const auto& more : {invariance_answer.stages(spec), layers_answer.stages(spec)})
     stages.insert(stages.end(), more.begin(), more.end());
   run_stages(stages, answers, {.team = team, .step = [&meter](const WaveStep& step, std::int64_t row_length) {
                                  meter.step(step, row_length);

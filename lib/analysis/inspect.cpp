@@ -102,7 +102,7 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
         fmt::format("on the fullest of {} ranks at least, ", ranks));
   check(need({.held = 0, .own = 0}), limits.here, "on each rank, however many, ");
   Answers answers(model);
-  context_stages(spec).front().run(answers, {.team = team});
+  context_answer.stages(spec).front().run(answers, {.team = team});
   const auto all = static_cast<double>(answers.context.abstraction->grid.rows());
   FullestRank fullest;
   double most = 0;

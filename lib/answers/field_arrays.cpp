@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "answers/layers/trigger_table.hpp"
+#include "answers/step_codes.hpp"
 #include "engine/convert_stretch.hpp"
 
 namespace coordreq {
@@ -41,8 +42,7 @@ FillArray fill_delays(const DelayLayers& layers, const LevelMap& collision_time,
     const auto entry = [connection_delay](std::int64_t delay) {
       const auto value = static_cast<std::int32_t>(delay);
       const std::int32_t shown = connection_delay < 0 ? value : trigger_of(value, connection_delay);
-      return shown == DelayLayers::kUnbounded ? std::numeric_limits<Integer>::max()
-                                              : static_cast<Integer>(shown);
+      return shown == kUnbounded ? std::numeric_limits<Integer>::max() : static_cast<Integer>(shown);
     };
     const Integer top = entry(layers.top_delay());
     layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
@@ -129,7 +129,7 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
   std::vector<std::uint8_t> is_safe(count);
   membership_array(collision_time, order, false).fill(begin, count, is_safe.data());
   for (std::uint64_t i = 0; i < count; ++i) {
-    out[i] = static_cast<Integer>(is_safe[i] == 0 ? DelayLayers::kOutsideSafe : out[i]);
+    out[i] = static_cast<Integer>(is_safe[i] == 0 ? kOutsideSafe : out[i]);
   }
 }
 

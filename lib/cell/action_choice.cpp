@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "answers/layers/delay_layers.hpp"
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "base/requires.hpp"
 #include "cell/smallest_score.hpp"
@@ -33,7 +34,7 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
       invariant_(problem.abstraction->grid,
                  [delay = delay_](std::int64_t cell) { return delay[at(cell)] >= 0; }),
       safe_(problem.abstraction->grid,
-            [delay = delay_](std::int64_t cell) { return delay[at(cell)] != DelayLayers::kOutsideSafe; }),
+            [delay = delay_](std::int64_t cell) { return delay[at(cell)] != kOutsideSafe; }),
       safe_beyond_(problem.abstraction->grid,
                    [beyond = problem.safe_beyond](std::int64_t cell) { return beyond->test(cell); }),
       posts_(*problem.abstraction),
@@ -141,8 +142,7 @@ void ActionChooser::for_each_choice(const Visit& visit) const {
 std::int64_t ActionChooser::delay_after(NextStates& next, std::int64_t u) const {
   const NextStates::Place place = next.place(u);
   if (place.kind == Location::Kind::cell) return compared_[at(place.cell)];
-  return place.kind == Location::Kind::left_safely ? std::numeric_limits<std::int64_t>::max()
-                                                   : DelayLayers::kOutsideSafe;
+  return place.kind == Location::Kind::left_safely ? std::numeric_limits<std::int64_t>::max() : kOutsideSafe;
 }
 
 std::int64_t ActionChooser::choose_worst(NextStates& next) {

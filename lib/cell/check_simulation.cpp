@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "cell/state_text.hpp"
 #include "model/locate.hpp"
@@ -96,7 +97,7 @@ void check_start(const ResultsReader& results, const std::vector<Rational>& stat
   }
   const std::int32_t steps = delays[static_cast<std::size_t>(location.cell)];
   if (steps < 0) {
-    throw UsageError(steps == DelayLayers::kOutsideSafe ? "the start is not in the safe set"
+    throw UsageError(steps == kOutsideSafe ? "the start is not in the safe set"
                      : is_silent
                          ? "the start is not in the silence set: the fallback rule is not safe from there"
                          : "the start is not in the invariance set: on this grid not even coordination keeps "

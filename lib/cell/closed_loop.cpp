@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "answers/goal/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 #include "model/sample_reset.hpp"
 #include "spec/problem_spec.hpp"
@@ -109,8 +110,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   std::int32_t countdown = begin_countdown(policy, state, trace);
   trace.samples.back().countdown = countdown;
   const bool is_lasting = problem_.spec->is_goal_lasting();
-  const std::int32_t promised =
-      has_aim(policy) && !is_lasting ? trace.samples.front().arrival : RunTrace::kForever;
+  const std::int32_t promised = has_aim(policy) && !is_lasting ? trace.samples.front().arrival : kUnbounded;
   for (std::int64_t k = 0; k < options_.steps; ++k) {
     if (is_at_end(trace)) {
       trace.outcome = Outcome::reached_goal;
@@ -143,7 +143,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
         coordinated ? chooser_.countdown_after(policy, state.place.cell, *u) : std::nullopt;
     const bool known = advance(state, *u, nature);
     RunTrace::Sample& reached = add_sample(state, trace);
-    if (countdown != RunTrace::kForever) {
+    if (countdown != kUnbounded) {
       if (coordinated) policy = policy_at(state, trace);
       countdown = !coordinated ? countdown - 1
                   : agreed     ? reset_countdown(*agreed)
@@ -187,7 +187,7 @@ bool ClosedLoop::is_step_of_aim(const RunTrace& trace) const {
   const std::int32_t before = trace.samples[trace.samples.size() - 2].arrival;
   const std::int32_t after = trace.samples.back().arrival;
   if (problem_.spec->goal_then == GoalThen::stay) return after <= before;
-  return before == 0 ? after != RunTrace::kForever && after >= 0 : after < before;
+  return before == 0 ? after != kUnbounded && after >= 0 : after < before;
 }
 
 /// @pre it has left through `goal` or `safe` sides alone
@@ -206,7 +206,7 @@ bool ClosedLoop::is_beyond_goal_side(const State& state) const {
 
 std::int32_t ClosedLoop::reset_countdown(std::int32_t delay) const {
   if (delay < 0) return 0;
-  return delay >= problem_.connection_delay || delay == RunTrace::kForever ? delay : 0;
+  return delay >= problem_.connection_delay || delay == kUnbounded ? delay : 0;
 }
 
 Nature ClosedLoop::draw_nature(RandomStream& random) const {
@@ -271,7 +271,7 @@ RunTrace::Sample ClosedLoop::sample(const State& state) {
   if (state.place.kind == Kind::cell) {
     result.delay = delay_[static_cast<std::size_t>(state.place.cell)];
   } else {
-    result.delay = state.place.kind == Kind::left_safely ? RunTrace::kForever : DelayLayers::kOutsideSafe;
+    result.delay = state.place.kind == Kind::left_safely ? kUnbounded : kOutsideSafe;
   }
   if (goal_ && state.place.kind == Kind::left_safely) result.in_goal = is_beyond_goal_side(state);
   if (to_aim_.empty()) return result;
@@ -280,7 +280,7 @@ RunTrace::Sample ClosedLoop::sample(const State& state) {
     result.in_goal = result.in_goal || (goal_ && result.arrival == 0);
   } else {
     const bool is_there = state.place.kind == Kind::left_safely && is_beyond_goal_side(state);
-    result.arrival = is_there ? 0 : RunTrace::kForever;
+    result.arrival = is_there ? 0 : kUnbounded;
   }
   return result;
 }

@@ -25,8 +25,9 @@ struct LoopOptions {
   std::vector<Rational> constant_disturbance;  ///< one a disturbance; used if constant
   std::uint64_t seed = 1;
   bool until_goal = false;  ///< a run ends where it reaches the goal, as it does if the spec says so
-  /// Agents do what they are told, for so many steps (kForever: until S is left), and then what comes after.
-  /// Then the second policy is that of silence, and the third one, if there is one, that of what comes after.
+  /// Agents do what they are told, for so many steps (kUnbounded: until S is left), and then what comes
+  /// after. Then the second policy is that of silence, and the third one, if there is one, that of what comes
+  /// after.
   std::optional<std::int64_t> silent_steps;
 };
 
@@ -52,17 +53,16 @@ enum class Outcome : std::uint8_t {
 
 /// One run. A sample is a state at a sampling instant; sample k is followed by step k, the last by none.
 struct RunTrace {
-  static constexpr std::int32_t kForever = DelayLayers::kUnbounded;
-
   struct Sample {
     std::vector<double> state;     ///< the true one
     std::vector<double> measured;  ///< its cell is what agents know
     double margin = 0;             ///< of `safe` at the true state, see Margin
-    /// Delay of the cell in steps, as LoopProblem has it; kForever in T, kOutsideSafe beyond an unsafe side.
+    /// Delay of the cell in steps, as LoopProblem has it; kUnbounded in T, kOutsideSafe beyond an unsafe
+    /// side.
     std::int32_t delay = 0;
     std::int32_t arrival = 0;  ///< those to the aim likewise, if there is one; 0 beyond a `goal` side
     bool in_goal = false;      ///< of a lasting goal: the condition holds, or the cell says so
-    /// i of Definition 3: steps that the agents still go on without coordination. kForever where they never
+    /// i of Definition 3: steps that the agents still go on without coordination. kUnbounded where they never
     /// need any.
     std::int32_t countdown = 0;
   };

@@ -9,8 +9,9 @@
 #include "answers/plan.hpp"
 #include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
+#include "answers/silence/answer.hpp"
 #include "answers/silence/fields.hpp"
-#include "answers/silence/policy.hpp"
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "cell/cell_controller.hpp"
 #include "cell/file_sets.hpp"
@@ -18,8 +19,6 @@
 
 namespace coordreq {
 namespace {
-
-constexpr std::int32_t kNever = ResultsReader::kNever;
 
 class Explainer {
  public:
@@ -38,7 +37,7 @@ class Explainer {
     DelayExplanation found{.delay = delay_at(cell)};
     const DelayLayers& layers = sets_.layers();
     found.is_lower_bound = layers.truncated && found.delay >= 0 && found.delay == layers.top_delay();
-    const bool is_bounded = found.delay != kNever && !found.is_lower_bound;
+    const bool is_bounded = found.delay != kUnbounded && !found.is_lower_bound;
     if (is_bounded) found.path = way_out(cell, state);
     found.is_over = is_over(cell);
     if (!found.is_over) {
@@ -112,7 +111,7 @@ class Explainer {
     DelayExplanation::Silence found{.steps = controller_.values(paths::kSilence, partition_)(cell)};
     found.is_lower_bound = layers.truncated && found.steps >= 0 && found.steps == layers.top_delay();
     found.actions = controller_.actions(silence_policies(spec).front(), partition_, cell, 0);
-    if (found.steps < 0 || found.steps == kNever || found.is_lower_bound) return found;
+    if (found.steps < 0 || found.steps == kUnbounded || found.is_lower_bound) return found;
     const bool has_then = spec.silence->has_then();
     found.path = way_out({.context = &sets_.context(),
                           .invariance = &sets_.invariance(),
@@ -137,12 +136,12 @@ class Explainer {
   /// The number of steps that a post leaves, its own included; a blocked one leaves none.
   [[nodiscard]] std::int32_t steps_after(const CellPost& post) {
     if (post.blocked != CellPost::Blocked::no) return 0;
-    if (post.all_left) return kNever;
-    const auto [entry, is_new] = known_.try_emplace(post.box, kNever);
+    if (post.all_left) return kUnbounded;
+    const auto [entry, is_new] = known_.try_emplace(post.box, kUnbounded);
     if (!is_new) return entry->second;
     for_each_cell(posts_.grid(), post.box, [&, &worst = entry->second](std::int64_t next) {
       const std::int32_t delay = delay_at(next);
-      worst = std::min(worst, delay == kNever ? kNever : std::max(delay, -1) + 1);
+      worst = std::min(worst, delay == kUnbounded ? kUnbounded : std::max(delay, -1) + 1);
       return worst > 0;
     });
     return entry->second;
@@ -151,7 +150,7 @@ class Explainer {
   /// For each class and each of its actions the worst that the others can make of it.
   void find_remedies(std::int64_t cell, DelayExplanation& found) {
     std::vector<std::vector<std::int32_t>> worst;
-    for (const InputClass& input_class : classes_) worst.emplace_back(at(input_class.actions()), kNever);
+    for (const InputClass& input_class : classes_) worst.emplace_back(at(input_class.actions()), kUnbounded);
     posts_.move_to(cell);
     for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
       const bool is_choice = std::equal(classes_.begin(), classes_.end(), found.actions.begin(),
@@ -216,7 +215,7 @@ MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition,
   for (const char* const path : {paths::kDelay, paths::kSilence}) {
     if (!results.has(path)) continue;
     const std::int32_t steps = results.values(path, partition, one_cell(results.grid(), cell)).front();
-    if (steps > 0 && steps != kNever) demand.once += kBytesOfNumber * numbers * steps;
+    if (steps > 0 && steps != kUnbounded) demand.once += kBytesOfNumber * numbers * steps;
   }
   return demand;
 }

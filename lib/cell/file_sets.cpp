@@ -5,6 +5,7 @@
 #include "answers/layers/fields.hpp"
 #include "answers/layers/stored_partition.hpp"
 #include "answers/silence/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 #include "cell/cell_controller.hpp"
 #include "reach/build_abstraction.hpp"
@@ -18,7 +19,7 @@ using Levels = LevelRows<std::uint32_t>;
 
 /// A level of steps as the file has them: never lost, lost after so many, or not there from the start.
 std::uint32_t level_of_steps(std::int32_t steps, std::int32_t first) {
-  if (steps == ResultsReader::kNever) return Levels::kTop;
+  if (steps == kUnbounded) return Levels::kTop;
   return steps < 0 ? 0 : static_cast<std::uint32_t>(steps + first);
 }
 
@@ -98,7 +99,7 @@ void FileSets::read_silence(std::size_t partition) {
       const std::int32_t own = steps[static_cast<std::size_t>(i)];
       const bool is_cut_off = silence_.truncated && own == last;
       silence_of_row.push_back(is_cut_off ? Levels::kTop : level_of_steps(own, 1));
-      lost_of_row.push_back(own >= 0 ? Levels::kTop : own == DelayLayers::kOutsideSafe ? 0 : 1);
+      lost_of_row.push_back(own >= 0 ? Levels::kTop : own == kOutsideSafe ? 0 : 1);
     }
     silence.put(r, silence_of_row.data());
     lost.put(r, lost_of_row.data());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "base/requires.hpp"
 #include "cell/state_reader.hpp"
@@ -14,7 +15,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kBeyondUnsafe = -2;
 constexpr const char* kLabel = "pair";
 
 std::string label_of(const StateReader& reader, std::int64_t row) {
@@ -54,8 +54,8 @@ std::int32_t steps_of_pair(const ResultsReader& results, const Field& field, std
     throw UsageError(
         fmt::format("{} = {} is not a value of this discrete state", grid[i].name, to_text(state[i])), where);
   }
-  if (is_unsafe) return kBeyondUnsafe;
-  if (has_left_safely) return ResultsReader::kNever;
+  if (is_unsafe) return kOutsideSafe;
+  if (has_left_safely) return kUnbounded;
   return results.values(field, partition, one_cell(grid, cell)).front();
 }
 

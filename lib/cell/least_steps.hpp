@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "answers/step_codes.hpp"
 #include "numeric/rational.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {
 
 /// The value of a field of steps for a state of a pair in a fleet (contract, "Fleets"): -2 beyond an unsafe
-/// side of the domain; else kNever beyond a `safe` or `goal` side; else that of its cell, or beyond a
+/// side of the domain; else kUnbounded beyond a `safe` or `goal` side; else that of its cell, or beyond a
 /// `saturate` or `stop` side of the boundary cell. @pre the field is of steps over partitions
 /// @throws UsageError where a discrete state is not one of its values. @param where for the message
 [[nodiscard]] std::int32_t steps_of_pair(const ResultsReader& results, const Field& field,
@@ -23,9 +24,9 @@ namespace coordreq {
 /// The least of many pairs.
 struct LeastSteps {
   std::int64_t pairs = 0;
-  std::int32_t least = ResultsReader::kNever;  ///< as the field has it: below 0 a flag
-  std::string pair;                            ///< its label, else the number of its row; of equals the first
-  std::optional<std::int64_t> below;           ///< pairs with less than `at_least`, if there is one
+  std::int32_t least = kUnbounded;    ///< as the field has it: below 0 a flag
+  std::string pair;                   ///< its label, else the number of its row; of equals the first
+  std::optional<std::int64_t> below;  ///< pairs with less than `at_least`, if there is one
 };
 
 /// Reads pairs as StateReader reads states; a column (of JSON lines a key) `pair` that is no state is a

@@ -33,7 +33,7 @@ struct JudgedRow {
   LogRow log;
   LogPlace place;
   std::int32_t delay = -2;                ///< as in `/delay`; the longest of the cells that it may be
-  std::optional<std::int32_t> countdown;  ///< kNever: without end; nothing outside K
+  std::optional<std::int32_t> countdown;  ///< kUnbounded: without end; nothing outside K
   std::optional<bool> fits_model;
   /// Of a step that does not fit: the first state that is elsewhere, its value, and the range that it can
   /// have.

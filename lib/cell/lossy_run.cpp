@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "answers/risk/policy.hpp"
-#include "answers/silence/policy.hpp"
+#include "answers/silence/answer.hpp"
 #include "cell/closed_loop.hpp"
 #include "spec/problem_spec.hpp"
 

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kAsUnsafe = -2;  // as outside S: of what is in no cell
-
 std::int32_t one_less(std::int32_t steps) {
-  return steps == ResultsReader::kNever ? steps : std::max(steps - 1, 0);
+  return steps == kUnbounded ? steps : std::max(steps - 1, 0);
 }
 
 }  // namespace
@@ -43,7 +42,7 @@ std::int32_t SilenceWatch::steps(std::size_t policy, std::int64_t cell) {
 
 /// The most steps of the cells that the state may be in.
 std::int32_t SilenceWatch::most_steps(std::size_t policy, const LogPlace& place) {
-  std::int32_t most = kAsUnsafe;
+  std::int32_t most = kOutsideSafe;
   for (const std::int64_t cell : place.cells) most = std::max(most, steps(policy, cell));
   return most;
 }

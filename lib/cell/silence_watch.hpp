@@ -29,7 +29,7 @@ class SilenceWatch {
 
   /// A first sample.
   void begin(const LogPlace& place);
-  /// Steps that the agents may still go on alone, kForever without end; nothing outside K.
+  /// Steps that the agents may still go on alone, kUnbounded without end; nothing outside K.
   [[nodiscard]] std::optional<std::int32_t> countdown() const;
   /// The step from a sample on. @param actions [class] in joint actions of the class; -1: none of these;
   /// nothing: not known
@@ -38,7 +38,7 @@ class SilenceWatch {
                            const std::vector<std::optional<std::int64_t>>& actions);
   /// The sample after a step. @returns whether it tolerates less silence than the countdown promised
   [[nodiscard]] bool arrive(const LogPlace& place, Contact contact);
-  /// The delay of a cell: steps, ResultsReader::kNever, -1 outside K, -2 outside S.
+  /// The delay of a cell: steps, kUnbounded, -1 outside K, -2 outside S.
   [[nodiscard]] std::int32_t delay(std::int64_t cell) { return steps(0, cell); }
 
  private:

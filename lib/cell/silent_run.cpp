@@ -2,6 +2,7 @@
 #include <limits>
 #include <utility>
 
+#include "answers/step_codes.hpp"
 #include "cell/closed_loop.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -14,13 +15,13 @@ RunTrace ClosedLoop::run_silent(std::vector<Rational> measured, std::uint64_t ru
   const bool has_then = problem_.policies.size() > 2;
   State state = first_state(std::move(measured), draw_nature(disturbances));
   const std::int64_t promised = silence[static_cast<std::size_t>(state.place.cell)];
-  const bool is_for_ever = promised == RunTrace::kForever || *options_.silent_steps <= promised;
+  const bool is_for_ever = promised == kUnbounded || *options_.silent_steps <= promised;
   RunTrace trace;
   const auto add = [&] {
     const auto k = static_cast<std::int64_t>(trace.samples.size());
-    const bool is_silent = *options_.silent_steps == RunTrace::kForever;
+    const bool is_silent = *options_.silent_steps == kUnbounded;
     add_sample(state, trace).countdown =
-        is_silent ? RunTrace::kForever
+        is_silent ? kUnbounded
                   : static_cast<std::int32_t>(std::max<std::int64_t>(0, *options_.silent_steps - k));
   };
   // Whether the promise is about the sample `later` steps from now on.
@@ -55,7 +56,7 @@ RunTrace ClosedLoop::run_silent(std::vector<Rational> measured, std::uint64_t ru
     if (state.place.kind == Location::Kind::left_safely)
       return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::left_safely, 0);
     const bool is_safe = known && state.place.kind == Location::Kind::cell &&
-                         silence[static_cast<std::size_t>(state.place.cell)] != DelayLayers::kOutsideSafe;
+                         silence[static_cast<std::size_t>(state.place.cell)] != kOutsideSafe;
     if (!is_safe) return end(Outcome::left_safe_set, 0);
   }
   return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::completed, 0);

@@ -14,8 +14,9 @@
 #include "answers/layers/forbidden_choices.hpp"
 #include "answers/one_cell/kept_inputs.hpp"
 #include "answers/plan.hpp"
+#include "answers/silence/answer.hpp"
 #include "answers/silence/fields.hpp"
-#include "answers/silence/policy.hpp"
+#include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
 #include "cell/check_simulation.hpp"
@@ -79,7 +80,7 @@ std::size_t partition_of_loop(const ProblemSpec& spec, const SimulationOptions& 
 CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay) {
   CellSet safe(grid.rows(), grid.row_length());
   for (std::int64_t x = 0; x < grid.cells(); ++x) {
-    if (delay[static_cast<std::size_t>(x)] != DelayLayers::kOutsideSafe) safe.set(x);
+    if (delay[static_cast<std::size_t>(x)] != kOutsideSafe) safe.set(x);
   }
   return safe;
 }
@@ -100,7 +101,7 @@ std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, const Simulatio
 
 std::optional<std::int64_t> silent_steps_of(const SimulationOptions& options) {
   if (!options.silent) return std::nullopt;
-  return options.silent_steps.value_or(RunTrace::kForever);
+  return options.silent_steps.value_or(kUnbounded);
 }
 
 /// Paths of the fields that a loop reads.

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "answers/step_codes.hpp"
 #include "base/process_memory.hpp"
 #include "base/requires.hpp"
 #include "model/odometer.hpp"
@@ -36,7 +37,7 @@ double CellColumn::rank(std::int32_t value) const {
 
 double CellColumn::number(std::int32_t value) const {
   if (field->kind == FieldKind::probability) return probability_of(value);
-  return value == ResultsReader::kNever ? std::numeric_limits<double>::infinity() : value;
+  return value == kUnbounded ? std::numeric_limits<double>::infinity() : value;
 }
 
 std::vector<CellColumn> cell_columns(const ResultsReader& results, std::optional<std::size_t> partition) {

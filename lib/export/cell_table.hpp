@@ -34,7 +34,7 @@ struct CellColumn {
   std::optional<std::size_t> leading;  ///< place along the axis before those of the cells
   /// Rank of a value where numbers are compared: codes of what is no number of steps have their place.
   [[nodiscard]] double rank(std::int32_t value) const;
-  /// A value as a number: infinity for kNever, a probability for its bits.
+  /// A value as a number: infinity for kUnbounded, a probability for its bits.
   [[nodiscard]] double number(std::int32_t value) const;
 };
 [[nodiscard]] std::vector<CellColumn> cell_columns(const ResultsReader& results,

@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "answers/step_codes.hpp"
 #include "numeric/rational.hpp"
 
 namespace coordreq {
@@ -29,7 +30,7 @@ void export_csv(const ResultsReader& results, const TableSelection& selection, c
       if (c > 0) text += ',';
       if (table.columns()[c].field->kind == FieldKind::probability) {
         fmt::format_to(std::back_inserter(text), "{}", probability_of(values[c]));
-      } else if (values[c] == ResultsReader::kNever) {
+      } else if (values[c] == kUnbounded) {
         text += "inf";
       } else {
         fmt::format_to(std::back_inserter(text), "{}", values[c]);

@@ -7,6 +7,7 @@
 
 #include "answers/field_table.hpp"
 #include "answers/invariance/fields.hpp"
+#include "answers/step_codes.hpp"
 
 namespace coordreq {
 namespace {
@@ -78,7 +79,7 @@ ReportMap real_map(const ResultsReader& results, const Field& field, Leading lea
     std::vector<std::int32_t> values = results.values(paths::kCollisionTime, block);
     const std::vector<float> reals = results.reals(field, leading, block);
     for (std::size_t x = 0; x < values.size(); ++x)
-      values[x] = values[x] == ResultsReader::kNever ? code(reals[x]) : values[x] == 0 ? -2 : -1;
+      values[x] = values[x] == kUnbounded ? code(reals[x]) : values[x] == 0 ? -2 : -1;
     return values;
   };
   ReportMap map{.head = head_of(field), .read = read};
@@ -141,7 +142,7 @@ std::vector<PackedMap> pack_listed(const ResultsReader& results, ReportMap& map,
   head["largest"] = packed.largest;
   head["flags"] = Json::array();
   for (const std::int32_t flag : packed.flags)
-    head["flags"].push_back(flag == ResultsReader::kNever ? Json("infinite") : Json(flag));
+    head["flags"].push_back(flag == kUnbounded ? Json("infinite") : Json(flag));
   if (map.members) {
     head["members"] = map.members->names();
     head["total"] = map.members->total();

@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 
+#include "answers/step_codes.hpp"
 #include "export/base64.hpp"
 
 namespace coordreq {
@@ -70,8 +71,8 @@ std::vector<std::byte> codes(const std::vector<std::int32_t>& values) {
   std::vector<std::byte> bytes;
   bytes.reserve(values.size() * sizeof(Code));
   for (const std::int32_t value : values) {
-    const auto code = value == ResultsReader::kNever ? std::numeric_limits<Code>::max()
-                                                     : static_cast<Code>(value - kLowestFlag);
+    const auto code =
+        value == kUnbounded ? std::numeric_limits<Code>::max() : static_cast<Code>(value - kLowestFlag);
     for (std::size_t i = 0; i < sizeof(Code); ++i)
       bytes.push_back(static_cast<std::byte>(static_cast<std::uint32_t>(code) >> 8 * i & 0xffU));
   }
@@ -97,7 +98,7 @@ PackedMaps pack_map(const UniformGrid& grid, const ReadCells& read, const std::v
   for_each_part(grid, read, [&](const CellBlock& part, const std::vector<std::int32_t>& values) {
     for (Gathering& gathering : gatherings) gathering.add(part, values);
     for (const std::int32_t value : values) {
-      if (value < 0 || value == ResultsReader::kNever) {
+      if (value < 0 || value == kUnbounded) {
         flags.insert(value);
       } else {
         maps.largest = std::max(maps.largest, value);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "answers/invariance/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 
 namespace coordreq {
@@ -28,7 +29,7 @@ std::vector<std::int32_t> MemberMap::read(const CellBlock& block) {
     for (std::size_t x = 0; x < holds.size(); ++x) sets[x] |= std::uint64_t{holds[x]} << member;
   }
   for (std::size_t x = 0; x < values.size(); ++x)
-    values[x] = values[x] == ResultsReader::kNever ? number(sets[x]) : values[x] == 0 ? -2 : -1;
+    values[x] = values[x] == kUnbounded ? number(sets[x]) : values[x] == 0 ? -2 : -1;
   return values;
 }
 

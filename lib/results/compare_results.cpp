@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "answers/requirements/result_requirement.hpp"
+#include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "base/requires.hpp"
 #include "results/comparable_results.hpp"
@@ -14,10 +15,10 @@ namespace {
 /// 2: the cell has left K, 1: it was unbounded and is no longer, 0: it has fewer steps.
 int gravity(const ValueChange& change) {
   if (change.after < 0) return 2;
-  return change.before == ResultsReader::kNever ? 1 : 0;
+  return change.before == kUnbounded ? 1 : 0;
 }
 
-/// A code of what is no number of steps counts as it does in the file: kNever is the largest number.
+/// A code of what is no number of steps counts as it does in the file: kUnbounded is the largest number.
 bool has_lost(const ValueChange& change) {
   return change.before >= 0 && change.after < change.before;
 }
@@ -68,12 +69,12 @@ SetComparison compare_sets(const ResultsReader& before, const ResultsReader& aft
 
 /// A value of which less is better as one of which more is, and back again; no number of steps is infinite.
 std::int32_t turned(std::int32_t value) {
-  constexpr std::int32_t kMost = ResultsReader::kNever - 1;
+  constexpr std::int32_t kMost = kUnbounded - 1;
   if (value < 0) return value;
-  return value == ResultsReader::kNever ? 0 : kMost - value;
+  return value == kUnbounded ? 0 : kMost - value;
 }
 std::int32_t turned_back(std::int32_t value) {
-  return value == 0 ? ResultsReader::kNever : turned(value);
+  return value == 0 ? kUnbounded : turned(value);
 }
 
 /// Adds up the cells, and keeps the worst of them.

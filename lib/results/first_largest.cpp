@@ -1,5 +1,7 @@
 #include "results/first_largest.hpp"
 
+#include "answers/step_codes.hpp"
+
 namespace coordreq {
 
 std::int64_t first_largest(const UniformGrid& grid, const ReadCells& read) {
@@ -7,7 +9,7 @@ std::int64_t first_largest(const UniformGrid& grid, const ReadCells& read) {
   std::int32_t largest = -1;
   for_each_part(grid, read, [&](const CellBlock& /*part*/, const std::vector<std::int32_t>& values) {
     for (const std::int32_t value : values) {
-      const bool infinite = value == ResultsReader::kNever;
+      const bool infinite = value == kUnbounded;
       if (infinite ? best < 0 : value > largest) {
         best = cell;
         largest = infinite ? -1 : value;

@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// A number for each cell: steps, or a place in a list; -3 to -1 are flags, ResultsReader::kNever is
+/// A number for each cell: steps, or a place in a list; -3 to -1 are flags, kUnbounded is
 /// infinity.
 using ReadCells = std::function<std::vector<std::int32_t>(const CellBlock&)>;
 

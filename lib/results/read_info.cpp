@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/plan.hpp"
+#include "answers/step_codes.hpp"
 #include "base/json.hpp"
 #include "model/outside_word.hpp"
 #include "results/first_largest.hpp"
@@ -82,7 +83,7 @@ std::int64_t best_cell(const ResultsReader& results, const AnswerPolicy& policy,
   return first_largest(results.grid(), [&](const CellBlock& block) {
     std::vector<std::int32_t> steps = results.values(policy.layered(), p, block);
     for (std::int32_t& value : steps) {
-      if (!is_finite && value != ResultsReader::kNever) value = -1;
+      if (!is_finite && value != kUnbounded) value = -1;
     }
     return steps;
   });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "base/process_memory.hpp"
 #include "base/requires.hpp"
@@ -36,12 +37,12 @@ struct Part {
   std::vector<std::uint64_t> count;
 };
 
-/// `values` with the type's largest value, which stands for infinity, as kNever.
+/// `values` with the type's largest value, which stands for infinity, as kUnbounded.
 template <class Integer>
 std::vector<std::int32_t> widened(const std::vector<Integer>& values) {
   std::vector<std::int32_t> result(values.size());
   std::transform(values.begin(), values.end(), result.begin(), [](Integer value) {
-    return value == std::numeric_limits<Integer>::max() ? ResultsReader::kNever : std::int32_t{value};
+    return value == std::numeric_limits<Integer>::max() ? kUnbounded : std::int32_t{value};
   });
   return result;
 }

@@ -38,7 +38,6 @@ struct ResultsParts;
 class ResultsReader : public FieldSource {
  public:
   /// Infinite delays, triggers and collision times, whatever type they are stored as.
-  static constexpr std::int32_t kNever = INT32_MAX;
 
   /// @param max_memory bytes that reading may take; arrays are read in parts, of which a few are kept
   /// @throws IoError if the file is not there or cannot be read; ResultsError if it is no results file of a
@@ -76,7 +75,7 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::optional<std::int64_t> lower_bound(const Field& field, std::size_t partition) const;
   /// Place along the axis before those of the cells; none where there is no such axis.
   using Leading = std::optional<std::size_t>;
-  /// Integers of a field over cells, kNever where the type's largest value means that there is no end; of
+  /// Integers of a field over cells, kUnbounded where the type's largest value means that there is no end; of
   /// probabilities the bits, see probability_of().
   [[nodiscard]] std::vector<std::int32_t> values(const Field& field, Leading leading,
                                                  const CellBlock& block) const;

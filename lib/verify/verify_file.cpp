@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "answers/invariance/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "results/results_reader.hpp"
 #include "results/version.hpp"
@@ -16,7 +17,7 @@
 namespace coordreq {
 namespace {
 
-static_assert(ResultsReader::kNever == kForever);
+static_assert(kUnbounded == kUnbounded);
 
 std::vector<std::size_t> indices(const std::vector<std::int32_t>& numbers) {
   return {numbers.begin(), numbers.end()};

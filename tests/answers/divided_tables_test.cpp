@@ -40,7 +40,7 @@ TEST(DividedTables, HoldWhatTheRowsOfARankNeed) {
   ThreadRanks::run(kRanks, [&](Ranks& ranks) {
     ThreadTeam team(2);
     Answers answers(model, &ranks);
-    run_stages(context_stages(spec), answers, {.team = team});
+    run_stages(context_answer.stages(spec), answers, {.team = team});
     const AnalysisContext& context = answers.context;
     const Abstraction& own = *context.abstraction;
     const std::size_t a = own.grid.dimension_of(0), c = own.grid.dimension_of(2);

@@ -1,4 +1,5 @@
 #include "cell/action_choice.hpp"
+#include "answers/step_codes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +14,6 @@ namespace {
 using test::line_spec;
 using test::LoopFixture;
 
-/// Agent a goes 0 or 1 up, b 1 or 0 down; above 8 it is unsafe. Joint inputs: 0 = (0, -1), 1 = (0, 0),
-/// 2 = (1, -1), 3 = (1, 0).
-constexpr std::int32_t kUnbounded = DelayLayers::kUnbounded;
 const std::vector<std::int32_t> kDelays = {8, 7, 6, 5, 4, 3, 2, 1, 0, -2};
 
 std::string ladder(const std::string& prefer_of_a = "", const std::string& prefer_of_b = "") {

@@ -1,4 +1,5 @@
 #include "cell/closed_loop.hpp"
+#include "answers/step_codes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,6 @@
 namespace coordreq {
 namespace {
 
-using test::kForever;
 using test::line_spec;
 using test::LoopFixture;
 
@@ -36,7 +36,7 @@ std::vector<double> positions(const RunTrace& trace) {
 }
 
 /// x moves by 1 whatever the agents do, past cells with these delays.
-const std::vector<std::int32_t> kRoad = {3, 9, 9, 1, 1, 2, 0, 5, kForever, 4};
+const std::vector<std::int32_t> kRoad = {3, 9, 9, 1, 1, 2, 0, 5, kUnbounded, 4};
 
 RunTrace ride(std::int64_t connection_delay, int start, std::int64_t steps) {
   const LoopFixture loop(line_spec(10, "x + 1"), kRoad, connection_delay);
@@ -62,7 +62,7 @@ TEST(ClosedLoop, TheCountdownDoesNotLookAtTheDelayOnTheWay) {
 TEST(ClosedLoop, TheConnectionStaysWhereItWouldComeTooLate) {
   const RunTrace trace = ride(2, 0, 9);
   // coordinated at 3; 4 has delay 1 < 2, so the connection stays; 5 has delay 2, dropped; 8 never needs one
-  EXPECT_EQ(countdowns(trace), (std::vector<std::int32_t>{3, 2, 1, 0, 0, 2, 1, 0, kForever, kForever}));
+  EXPECT_EQ(countdowns(trace), (std::vector<std::int32_t>{3, 2, 1, 0, 0, 2, 1, 0, kUnbounded, kUnbounded}));
   EXPECT_EQ(coordination(trace), "...CC..C.");
 }
 
@@ -74,7 +74,7 @@ TEST(ClosedLoop, AStartThatCannotWaitIsConnected) {
 
 TEST(ClosedLoop, UnboundedCellsNeverCoordinate) {
   const RunTrace trace = ride(7, 8, 1);
-  EXPECT_EQ(countdowns(trace), (std::vector<std::int32_t>{kForever, kForever}));
+  EXPECT_EQ(countdowns(trace), (std::vector<std::int32_t>{kUnbounded, kUnbounded}));
   EXPECT_EQ(coordination(trace), ".");
 }
 
@@ -116,7 +116,7 @@ TEST(ClosedLoop, ASafeSideEndsWell) {
   EXPECT_EQ(trace.outcome, Outcome::left_safely);
   EXPECT_FALSE(is_violation(trace.outcome));
   EXPECT_EQ(positions(trace), (std::vector<double>{1.25, 2.25, 3.25, 4.25}));
-  EXPECT_EQ(trace.samples.back().delay, kForever);
+  EXPECT_EQ(trace.samples.back().delay, kUnbounded);
   EXPECT_EQ(trace.smallest_margin(), 8.5 - 3.25);
 }
 
@@ -126,7 +126,7 @@ TEST(ClosedLoop, AnUnsafeSideIsNone) {
                          {1, 1, 1});
   const RunTrace trace = loop.run({2}, {.steps = 9});
   EXPECT_EQ(trace.outcome, Outcome::left_invariant);
-  EXPECT_EQ(trace.samples.back().delay, DelayLayers::kOutsideSafe);
+  EXPECT_EQ(trace.samples.back().delay, kOutsideSafe);
 }
 
 TEST(ClosedLoop, SaturateResetsAtTheSample) {

@@ -1,4 +1,5 @@
 #include "cell/least_steps.hpp"
+#include "answers/step_codes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -74,8 +75,8 @@ TEST(LeastSteps, TheLeastOfAllPairsAndTheFirstOfEquals) {
 TEST(LeastSteps, BeyondTheDomainTheSidesSayWhatAPairHas) {
   Pairs pairs;
   EXPECT_EQ(pairs.least("x,y,mode\n9,1,0\n").least, -2);
-  EXPECT_EQ(pairs.least("x,y,mode\n-9,1,0\n").least, ResultsReader::kNever);
-  EXPECT_EQ(pairs.least("x,y,mode\n-9,99,0\n").least, ResultsReader::kNever);
+  EXPECT_EQ(pairs.least("x,y,mode\n-9,1,0\n").least, kUnbounded);
+  EXPECT_EQ(pairs.least("x,y,mode\n-9,99,0\n").least, kUnbounded);
   EXPECT_EQ(pairs.least("x,y,mode\n1,99,0\n").least, pairs.delay((1 * 5 + 4) * 2));
   EXPECT_EQ(pairs.least("x,y,mode\n1,-99,0\n").least, pairs.delay((1 * 5 + 0) * 2));
   EXPECT_EQ(pairs.least("x,y,mode\n4,4,0\n").least, -2);

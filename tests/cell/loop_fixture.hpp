@@ -4,15 +4,13 @@
 #include <utility>
 #include <vector>
 
+#include "answers/layers/answer.hpp"
 #include "answers/layers/fields.hpp"
-#include "answers/layers/policy.hpp"
 #include "cell/closed_loop.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq::test {
-
-inline constexpr std::int32_t kForever = RunTrace::kForever;
 
 /// A loop on a spec with delays made by hand, as the tests need them.
 class LoopFixture {

@@ -1,4 +1,5 @@
 #include "export/report_data.hpp"
+#include "answers/step_codes.hpp"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>
@@ -64,7 +65,7 @@ std::vector<std::int32_t> unpacked(const SortedJson& map, std::size_t cells) {
     std::uint64_t code = 0;
     for (std::size_t i = size; i-- > 0;) code = code << 8U | raw[x * size + i];
     const bool infinite = code == (std::uint64_t{1} << 8 * size) - 1;
-    values.push_back(infinite ? ResultsReader::kNever : static_cast<std::int32_t>(code) - 3);
+    values.push_back(infinite ? kUnbounded : static_cast<std::int32_t>(code) - 3);
   }
   return values;
 }
@@ -151,7 +152,7 @@ TEST_F(ReportDataOfThree, TheBestCellIsTheFirstWithTheLongestFiniteDelay) {
       results_->values(results_->field("/delay"), 0, all_cells(results_->grid()));
   std::int32_t longest = 0;
   for (const std::int32_t value : delay) {
-    if (value != ResultsReader::kNever) longest = std::max(longest, value);
+    if (value != kUnbounded) longest = std::max(longest, value);
   }
   EXPECT_GT(longest, 0);
   EXPECT_EQ(data.best_cells[0], std::find(delay.begin(), delay.end(), longest) - delay.begin());

@@ -9,6 +9,7 @@
 
 #include "answers/coalition/coalition_map.hpp"
 #include "answers/layers/refinement.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/fast_engine.hpp"
@@ -81,7 +82,7 @@ std::vector<std::int32_t> delays(const ProblemSpec& spec, const PlainAnalysis::P
   std::vector<std::int32_t> result = partition.delay;
   if (partition.truncated) {
     std::replace(result.begin(), result.end(), static_cast<std::int32_t>(*spec.coordination.max_delay),
-                 DelayLayers::kUnbounded);
+                 kUnbounded);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include "answers/blind/answer.hpp"
 #include "answers/blind/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "model/odometer.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
@@ -27,8 +28,7 @@ std::vector<std::int32_t> values(const FastAnalysis& fast, const DelayLayers& la
   std::vector<std::int32_t> result;
   for (std::int64_t x = 0; x < fast.safe.cells(); ++x) {
     const std::int64_t level = layers.layers_of.at(x);
-    const std::int32_t outside =
-        fast.safe.test(x) ? DelayLayers::kOutsideInvariant : DelayLayers::kOutsideSafe;
+    const std::int32_t outside = fast.safe.test(x) ? kOutsideInvariant : kOutsideSafe;
     result.push_back(level == LevelMap::kTop ? layers.top_delay()
                      : level == 0            ? outside
                                              : static_cast<std::int32_t>(level - 1));

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "answers/layers/leaving_cells.hpp"
+#include "answers/step_codes.hpp"
 #include "model/input_class.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
@@ -36,7 +37,7 @@ std::int64_t leaving_plainly(const ProblemSpec& spec, const FastAnalysis& fast, 
       input_classes(spec, abstraction.inputs, spec.coordination.partitions[p]);
   const PlainAnalysis::Partition& own = plain.partitions[p];
   std::vector<bool> staying;
-  for (const std::int32_t delay : own.delay) staying.push_back(delay == DelayLayers::kUnbounded);
+  for (const std::int32_t delay : own.delay) staying.push_back(delay == kUnbounded);
   const auto all = std::count(staying.begin(), staying.end(), true);
   const std::vector<bool> safe = members(fast.safe);
   const std::vector<bool> beyond = members(fast.beyond.value_or(fast.safe));

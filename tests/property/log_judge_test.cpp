@@ -9,6 +9,7 @@
 #include "analysis/analyze.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/step_codes.hpp"
 #include "base/json.hpp"
 #include "cell/invariant_cells.hpp"
 #include "cell/log_judge.hpp"
@@ -238,7 +239,7 @@ void expect_rows(const Twice& twice, std::size_t p, const RandomLog& log,
     RC_ASSERT(row.is_silent_too_long == (!log.connected[k] && left == 0));
     if (k + 1 == rows.size()) continue;
     RC_ASSERT(row.fits_model == is_in_post(twice.abstraction, log.cells[k], log.inputs[k], log.cells[k + 1]));
-    const std::int32_t after = left == RunTrace::kForever ? left : left - 1;
+    const std::int32_t after = left == kUnbounded ? left : left - 1;
     tolerates_less = !log.connected[k] && left > 0 && delay(k + 1) < after;
     const std::int32_t kept = std::min(std::max(after, 0), delay(k + 1));
     left = log.connected[k] || left < 0 ? begun(k + 1) : std::max(kept, -1);

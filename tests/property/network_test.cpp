@@ -8,6 +8,7 @@
 
 #include "answers/network/network_problem.hpp"
 #include "answers/network/network_safety.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/draw.hpp"
@@ -257,7 +258,7 @@ TEST(Network, WhatIsKnownOfSpecialNetworks) {
       RC_ASSERT(late[static_cast<std::size_t>(k)] == layer(problem.fast(), steps - k));
     RC_ASSERT(late.back() == problem.invariant());
     RC_ASSERT(problem.safe(R"({"delay": 0, "resynthesise": true})")[0] == problem.invariant());
-    const Set unbounded = layer(problem.fast(), DelayLayers::kUnbounded);
+    const Set unbounded = layer(problem.fast(), kUnbounded);
     RC_ASSERT(problem.safe(R"({"modes": [{"name": "down", "partition": "alone"}],
 "transitions": [["down", "down"]]})")[0] == unbounded);
     const int window = draw(1, 5);

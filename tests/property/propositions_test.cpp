@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "answers/layers/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "expression/evaluate.hpp"
 #include "model/input_class.hpp"
 #include "reach/build_abstraction.hpp"
@@ -147,7 +148,7 @@ TEST(Propositions, AStateThatLeavesTheLayersHasAChoiceThatLeavesItsOwn) {
     const bool is_truncated = world.claims().at("/fixed_point_index").integers[p] < 0;
     for (std::int64_t x = 0; x < world.cells(); ++x) {
       const std::int32_t k = delay[static_cast<std::size_t>(x)];
-      if (k < 0 || k == kForever || (is_truncated && k == *world.coordination().max_delay)) continue;
+      if (k < 0 || k == kUnbounded || (is_truncated && k == *world.coordination().max_delay)) continue;
       const auto leaves = [&](std::int64_t u) {
         const auto next = world.post(x, u);
         const auto outside = [&](std::int64_t y) {
@@ -185,7 +186,7 @@ TEST(Propositions, NoSelfTriggeredRunFromKLeavesS) {
       RC_ASSERT(world.claims().members("/safe")[static_cast<std::size_t>(x)] != 0);
       if (!alone) {
         countdown = delay[static_cast<std::size_t>(x)];
-      } else if (countdown != kForever) {
+      } else if (countdown != kUnbounded) {
         --countdown;
       }
     }

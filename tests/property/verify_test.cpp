@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 #include "support/analysed_file.hpp"
 #include "support/draw.hpp"
@@ -152,17 +153,17 @@ bool corrupt(Claims& claims) {
       return true;
     case 2: {
       std::int32_t& time = draw_one_of(values("/collision_time").front());
-      time = time == kForever ? 1 : time + 1;
+      time = time == kUnbounded ? 1 : time + 1;
       return true;
     }
     case 3: {
       std::int32_t& delay = draw_one_of(draw_one_of(values("/delay")));
-      delay = delay == kForever ? draw(0, 3) : std::max(delay + step, -2 + (delay == -2 ? 1 : 0));
+      delay = delay == kUnbounded ? draw(0, 3) : std::max(delay + step, -2 + (delay == -2 ? 1 : 0));
       return true;
     }
     case 4: {
       std::int32_t& trigger = draw_one_of(draw_one_of(values("/trigger")));
-      trigger = trigger == kForever ? 0 : trigger + 1;
+      trigger = trigger == kUnbounded ? 0 : trigger + 1;
       return true;
     }
     case 5:
@@ -211,8 +212,8 @@ TEST(Verify, ALayerThatIsTooLargeIsFoundThoughAllCountsAgree) {
     std::int64_t moved = 0;
     for (std::size_t x = 0; x < delay.size(); ++x) {
       if (delay[x] != layer) continue;
-      delay[x] = kForever;
-      file.claims.fields.at("/trigger").values.front()[x] = kForever;
+      delay[x] = kUnbounded;
+      file.claims.fields.at("/trigger").values.front()[x] = kUnbounded;
       ++moved;
       break;
     }

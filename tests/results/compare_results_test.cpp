@@ -1,4 +1,5 @@
 #include "results/compare_results.hpp"
+#include "answers/step_codes.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -161,7 +162,7 @@ TEST_F(CompareResults, GridsMustBeTheSame) {
 
 /// Steps that a code of a delay stands for, with what is not in K below all of them.
 double steps(std::int32_t delay) {
-  return delay == ResultsReader::kNever ? std::numeric_limits<double>::infinity() : std::max(delay, -1);
+  return delay == kUnbounded ? std::numeric_limits<double>::infinity() : std::max(delay, -1);
 }
 
 /// What is counted, added up from the whole arrays.

@@ -1,4 +1,5 @@
 #include "results/results_reader.hpp"
+#include "answers/step_codes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -125,7 +126,7 @@ void expect_block(const ResultsReader& results, const CellBlock& block, ElementT
   ASSERT_EQ(safe.size(), cells);
   ASSERT_EQ(trigger.size(), cells);
   const auto widened = [steps](std::int64_t value) {
-    return value == sample::maximum(steps) ? ResultsReader::kNever : value;
+    return value == sample::maximum(steps) ? kUnbounded : value;
   };
   std::size_t position = 0;
   for (std::int64_t i = 0; i < block.count[0]; ++i) {
@@ -169,7 +170,7 @@ TEST_F(Reader, AStretchIsTheCellsInTheirOrder) {
     ASSERT_EQ(static_cast<std::int64_t>(delays.size()), end - begin);
     for (std::int64_t x = begin; x < end; ++x) {
       const std::int64_t value = sample::delay(0, static_cast<std::uint64_t>(x), ElementType::int16);
-      EXPECT_EQ(delays[static_cast<std::size_t>(x - begin)], value == 32767 ? ResultsReader::kNever : value);
+      EXPECT_EQ(delays[static_cast<std::size_t>(x - begin)], value == 32767 ? kUnbounded : value);
     }
   }
 }

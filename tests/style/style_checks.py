@@ -78,6 +78,7 @@ def includes_point_left(root):
 CLAIMED = (
     "engine/packed_pairs.hpp",
     "answers/field_source.hpp",
+    "answers/step_codes.hpp",
     "answers/layers/stored_partition.hpp",
     "answers/requirements/result_requirement.hpp",
 )

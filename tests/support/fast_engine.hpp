@@ -9,6 +9,7 @@
 #include "answers/invariance/controller.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
+#include "answers/step_codes.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
@@ -50,7 +51,7 @@ struct FastAnalysis {
     std::vector<std::int32_t> result;
     for (std::int64_t x = 0; x < safe.cells(); ++x) {
       const std::int64_t level = own.layers_of.at(x);
-      const std::int32_t outside = safe.test(x) ? DelayLayers::kOutsideInvariant : DelayLayers::kOutsideSafe;
+      const std::int32_t outside = safe.test(x) ? kOutsideInvariant : kOutsideSafe;
       result.push_back(level == LevelMap::kTop ? own.top_delay()
                        : level == 0            ? outside
                                                : static_cast<std::int32_t>(level - 1));

@@ -7,6 +7,7 @@
 #include "answers/invariance/invariance.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/delay_layers.hpp"
+#include "answers/step_codes.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
@@ -218,7 +219,7 @@ class PlainEngine {
   void iterate(PlainAnalysis::Partition& result, const Reasonable& reasonable) {
     Set layer = result_.invariant;
     for (std::int64_t x = 0; x < cells_; ++x) {
-      result.delay.push_back(safe_[at(x)] ? (layer[at(x)] ? DelayLayers::kUnbounded : -1) : -2);
+      result.delay.push_back(safe_[at(x)] ? (layer[at(x)] ? kUnbounded : -1) : -2);
     }
     result.sizes.push_back(std::count(layer.begin(), layer.end(), true));
     for (std::int64_t k = 0;; ++k) {
@@ -248,7 +249,7 @@ class PlainEngine {
     }
     result.truncated = true;
     for (std::int32_t& delay : result.delay) {
-      if (delay == DelayLayers::kUnbounded) delay = static_cast<std::int32_t>(*spec_.coordination.max_delay);
+      if (delay == kUnbounded) delay = static_cast<std::int32_t>(*spec_.coordination.max_delay);
     }
   }
 

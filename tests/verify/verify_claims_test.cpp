@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "answers/step_codes.hpp"
 #include "support/analysed_file.hpp"
 
 namespace coordreq {
@@ -65,7 +66,7 @@ TEST(VerifyClaims, OfAnotherVersionLessSafetyIsLeftOpenAndMoreIsWrong) {
   file.claims.same_version = false;
   std::vector<std::int32_t>& times = file.claims.fields.at("/collision_time").values.front();
   const auto late =
-      std::find_if(times.begin(), times.end(), [](std::int32_t t) { return t >= 2 && t != kForever; });
+      std::find_if(times.begin(), times.end(), [](std::int32_t t) { return t >= 2 && t != kUnbounded; });
   ASSERT_NE(late, times.end());
   *late -= 1;
   const Verification less = verify_file(file, {}, team);
@@ -94,7 +95,7 @@ TEST(VerifyClaims, AGreaterKThanThereIsIsFound) {
   const auto x = static_cast<std::size_t>(outside - times.begin());
   fields.at("/invariant").members.front()[x] = 1;
   fields.at("/invariant").cells.front() += 1;
-  times[x] = kForever;
+  times[x] = kUnbounded;
   std::vector<std::int64_t>& sizes = fields.at("/layer_size").integers;
   const std::size_t partitions = fields.at("/delay").values.size();
   for (std::size_t p = 0; p < partitions; ++p) {
@@ -113,7 +114,7 @@ TEST(VerifyClaims, ASmallerKThanThereIsIsFoundThoughItIsSafe) {
   std::vector<std::uint8_t>& invariant = fields.at("/invariant").members.front();
   std::fill(invariant.begin(), invariant.end(), 0);
   fields.at("/invariant").cells = {0};
-  for (std::int32_t& time : fields.at("/collision_time").values.front()) time = time == kForever ? 1 : time;
+  for (std::int32_t& time : fields.at("/collision_time").values.front()) time = time == kUnbounded ? 1 : time;
   for (std::vector<std::int32_t>& own : fields.at("/delay").values) {
     for (std::int32_t& delay : own) delay = std::min(delay, -1);
   }

@@ -8,6 +8,7 @@
 
 #include "answers/blind/blind_layers.hpp"
 #include "answers/blind/fields.hpp"
+#include "answers/checking/all_checks.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
@@ -176,13 +177,8 @@ Json blind_json(const AnalysisContext& context, const DelayLayers& layers, std::
   return json;
 }
 
-}  // namespace
-
-std::int64_t BlindPartition::table_steps() const {
-  const std::int64_t known = layers.truncated ? layers.top_delay() : layers.fixed_point_index;
-  return std::clamp<std::int64_t>(known, 1, SilentTable::kMostSteps);
-}
-
+/// Adds Blind, if some agent does not see all states: for each partition of several classes "blind layers
+/// PARTITION", then "blind delays PARTITION".
 std::vector<Stage> blind_stages(const ProblemSpec& spec) {
   if (!has_limited_sight(spec)) return {};
   std::vector<Stage> stages;
@@ -217,6 +213,7 @@ void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info) 
   if (has_limited_sight(spec)) tell_layers_of(spec, source, "/blind_", "blind", info);
 }
 
+/// Warns that other answers are about agents who see everything.
 Warnings advise_on_blind(const Answers& answers) {
   const ProblemSpec& spec = answers.context.spec;
   if (!has_limited_sight(spec)) return {};
@@ -257,5 +254,24 @@ MemoryNeed blind_memory(const EngineSizes& sizes, int threads) {
   need.work += sizes.wave(threads) + sizes.level_delta() + sizes.set();
   return need;
 }
+
+}  // namespace
+
+std::int64_t BlindPartition::table_steps() const {
+  const std::int64_t known = layers.truncated ? layers.top_delay() : layers.fixed_point_index;
+  return std::clamp<std::int64_t>(known, 1, SilentTable::kMostSteps);
+}
+
+const Answer blind_answer = {.stages = blind_stages,
+                             .memory = blind_memory,
+                             .fields = blind_fields,
+                             .fill = fill_blind_fields,
+                             .summarise = summarise_blind,
+                             .tell = tell_blind,
+                             .advise = advise_on_blind,
+                             .policies = blind_policies,
+                             .explain = explain_blind,
+                             .check = check_blind,
+                             .check_memory = blind_check_memory};
 
 }  // namespace coordreq

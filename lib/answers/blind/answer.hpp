@@ -4,14 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "answers/answers.hpp"
+#include "answers/answer.hpp"
 #include "answers/blind/silent_table.hpp"
-#include "answers/field_source.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "answers/memory_need.hpp"
-#include "answers/stage.hpp"
-#include "answers/warning.hpp"
-#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -30,13 +25,12 @@ struct Blind {
   std::vector<BlindPartition> partitions;
 };
 
-/// Adds Blind, if some agent does not see all states: for each partition of several classes "blind layers
-/// PARTITION", then "blind delays PARTITION".
-[[nodiscard]] std::vector<Stage> blind_stages(const ProblemSpec& spec);
-[[nodiscard]] MemoryNeed blind_memory(const EngineSizes& sizes, int threads);
-void summarise_blind(const Answers& answers, Json& summary, Json& work);
-void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info);
-/// Warns that other answers are about agents who see everything.
-[[nodiscard]] Warnings advise_on_blind(const Answers& answers);
+extern const Answer blind_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields blind_fields(const ProblemSpec& spec);
+void fill_blind_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+[[nodiscard]] std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec);
+[[nodiscard]] Explained explain_blind(const ExplainContext& context);
 
 }  // namespace coordreq

@@ -1,4 +1,4 @@
-#include "answers/blind/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/cell_place.hpp"
+#include "answers/checking/check_context.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/layers/check_sizes.hpp"
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "model/input_class.hpp"
 #include "spec/partition_names.hpp"
@@ -87,10 +90,10 @@ struct BlindPartitionCheck {
       classes.emplace_back(context, claims.partition, c);
   }
 
-  /// The greatest k with x in B_k, as claimed; kForever if there is no greatest.
+  /// The greatest k with x in B_k, as claimed; kUnbounded if there is no greatest.
   [[nodiscard]] std::int32_t depth(std::int64_t cell) const {
     const std::int32_t steps = claims.delay[at(cell)];
-    return most && *most > 0 && steps == *most ? kForever : steps;
+    return most && *most > 0 && steps == *most ? kUnbounded : steps;
   }
 
   PartitionClaims claims;  ///< with countdowns for delays
@@ -140,7 +143,7 @@ class BlindChecker : public CellChecker {
                                                  const BlindPartitionCheck& partition) const {
     if (partition.classes.empty()) return partition.of_sight[cell.at()];
     bool any = cell.is_over();
-    std::int32_t worst = kForever;
+    std::int32_t worst = kUnbounded;
     const std::int64_t inputs = cell.is_over() ? 0 : context_.inputs->count();
     for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
       const bool is_chosen = std::ranges::all_of(partition.classes, [&](const BlindClass& one) {
@@ -326,11 +329,16 @@ class BlindCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Checks blind delays and countdowns by the countdowns of the cells that can follow, B_1 by its definition,
+/// and each row of a silent table as an intersection (contract, section 8). If only a sample of cells is
+/// checked, rows are looked at for actions too many alone, and B_1 is not checked. Null if all agents see
+/// everything.
 std::unique_ptr<AnswerCheck> check_blind(const CheckContext& context) {
   if (!has_limited_sight(*context.spec)) return nullptr;
   return std::make_unique<BlindCheck>(context);
 }
 
+/// Bytes a cell: the actions of each class there.
 double blind_check_memory(const ProblemSpec& spec) {
   if (!has_limited_sight(spec)) return 0;
   double bytes = 1;

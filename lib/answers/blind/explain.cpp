@@ -1,4 +1,4 @@
-#include "answers/blind/explain.hpp"
+#include "answers/blind/answer.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +15,7 @@
 #include "answers/layers/fields.hpp"
 #include "answers/one_cell/action_words.hpp"
 #include "answers/one_cell/cell_members.hpp"
+#include "answers/step_codes.hpp"
 #include "base/grouped.hpp"
 #include "base/index.hpp"
 #include "model/odometer.hpp"
@@ -25,7 +26,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kUnbounded = std::numeric_limits<std::int32_t>::max();
 /// The most cells of a fibre that are compared.
 constexpr std::int64_t kMostCells = 4096;
 
@@ -193,6 +193,9 @@ void add_confusion(const ExplainContext& context, const Confusion& found, Explai
 
 }  // namespace
 
+/// Explains the worth of sight at a cell, and where sight is missing: two cells that a class cannot tell
+/// apart, in which it has to take different actions, at the end of a shortest way there. Nothing if all
+/// agents see everything.
 Explained explain_blind(const ExplainContext& context) {
   if (!has_limited_sight(*context.spec)) return {};
   const std::int32_t blind = context.values(paths::kBlindDelay)(context.cell);

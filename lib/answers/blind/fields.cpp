@@ -10,6 +10,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/layers/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
@@ -19,10 +20,10 @@ namespace coordreq {
 namespace {
 
 Field blind_steps(const std::string& name, const ProblemSpec& spec, std::string long_name, FieldShown shown) {
-  return steps_field(name, spec, DelayLayers::kOutsideSafe,
+  return steps_field(name, spec, kOutsideSafe,
                      described(std::move(long_name)) +
-                         std::vector<FieldAttribute>{flags({{DelayLayers::kOutsideSafe, "not_safe"},
-                                                            {DelayLayers::kOutsideInvariant, "not_invariant"},
+                         std::vector<FieldAttribute>{flags({{kOutsideSafe, "not_safe"},
+                                                            {kOutsideInvariant, "not_invariant"},
                                                             {kLargestValue, "unbounded"}})},
                      std::move(shown), "/blind_fixed_point_index");
 }
@@ -98,6 +99,8 @@ bool has_silent_table(const ProblemSpec& spec, const PartitionSpec& partition, s
          seen_states(spec, partition.classes[class_number]).size() < spec.states.size();
 }
 
+/// Blind delays and countdowns, sizes of blind layers, F_b, and the silent tables. None if all agents see
+/// everything.
 Fields blind_fields(const ProblemSpec& spec) {
   if (!has_limited_sight(spec)) return {};
   Fields fields;
@@ -127,6 +130,7 @@ Fields blind_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_blind_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const ProblemSpec& spec = answers.context.spec;
   if (!has_limited_sight(spec)) return;

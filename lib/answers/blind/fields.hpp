@@ -25,13 +25,6 @@ inline constexpr char kSilentLayer[] = "/silent_layer";
 [[nodiscard]] bool has_silent_table(const ProblemSpec& spec, const PartitionSpec& partition,
                                     std::size_t class_number);
 
-/// Blind delays and countdowns, sizes of blind layers, F_b, and the silent tables. None if all agents see
-/// everything.
-[[nodiscard]] Fields blind_fields(const ProblemSpec& spec);
-
-/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
-void fill_blind_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
 /// B of a partition; Z if it has one class. @pre unchecked: the layers have been found
 [[nodiscard]] const DelayLayers& blind_layers(const Answers& answers, std::size_t p);
 /// B with the levels of blind delays; Z if the partition has one class.

@@ -1,4 +1,4 @@
-#include "answers/blind/policy.hpp"
+#include "answers/blind/answer.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -81,6 +81,10 @@ class BlindPolicy : public CellPolicy {
 
 }  // namespace
 
+/// Agents who see only themselves (contract, section 8): those who coordinate choose from C(x), and count
+/// down from the least blind countdown of all cells that may be next, for nobody will know which of these it
+/// is. Each class then chooses from the row of its silent table, by what it sees. None if all agents see
+/// everything.
 std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
   if (!has_limited_sight(spec)) return {};
   return {{.name = "blind",

@@ -6,6 +6,7 @@
 
 #include "answers/checking/cell_place.hpp"
 #include "answers/checking/claimed_values.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -8,6 +8,7 @@
 #include "answers/checking/allowed_pairs.hpp"
 #include "answers/checking/check_context.hpp"
 #include "answers/checking/tally.hpp"
+#include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 
 namespace coordreq {
@@ -57,7 +58,7 @@ class CheckedCell {
   /// @pre unchecked: for the same values the same `blocked` and `forever`.
   template <class Value>
   [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<Value>& values, std::int32_t blocked,
-                                   std::int32_t forever = kForever) {
+                                   std::int32_t forever = kUnbounded) {
     if (remembered_ != values.data()) {
       remembered_ = values.data();
       memory_.assign(posts_.memory_size(), PostMinima::kNotKnown);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -16,7 +17,7 @@ ClaimedProgress::ClaimedProgress(const CheckContext& context)
     : context_(context),
       is_lasting_(context.spec->is_goal_lasting()),
       arrival_(context.claims->values("/arrival")) {
-  for (const std::int32_t steps : arrival_) nearness_.push_back(steps < 0 ? kOutside : kForever - steps);
+  for (const std::int32_t steps : arrival_) nearness_.push_back(steps < 0 ? kOutside : kUnbounded - steps);
 }
 
 bool ClaimedProgress::leaves_through_safe_side(const CheckedCell& cell, std::int64_t u) const {
@@ -36,28 +37,28 @@ bool ClaimedProgress::leaves_through_safe_side(const CheckedCell& cell, std::int
 
 std::int32_t ClaimedProgress::worst(CheckedCell& cell, std::int64_t u) const {
   const std::int32_t least = cell.least(u, nearness_, kOutside);
-  if (least <= 0 || leaves_through_safe_side(cell, u)) return kForever;
-  return kForever - least;
+  if (least <= 0 || leaves_through_safe_side(cell, u)) return kUnbounded;
+  return kUnbounded - least;
 }
 
 std::int32_t ClaimedProgress::best(CheckedCell& cell) const {
   const bool is_given = context_.spec->controller.synthesis == Synthesis::given;
   bool is_none = true;
-  std::int32_t result = is_given ? 0 : kForever;
+  std::int32_t result = is_given ? 0 : kUnbounded;
   for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
     if (cell.admitted()[u] == 0) continue;
     is_none = false;
     const std::int32_t own = worst(cell, static_cast<std::int64_t>(u));
     result = is_given ? std::max(result, own) : std::min(result, own);
   }
-  return is_none ? kForever : result;
+  return is_none ? kUnbounded : result;
 }
 
 std::int32_t ClaimedProgress::limit(CheckedCell& cell) const {
   // What is lost in x itself follows from the equation of arrival: the best step loses no more.
   if (context_.spec->goal_then == GoalThen::stay) return best(cell);
   const std::int32_t own = arrival_[cell.at()];
-  return is_lasting_ && own == 0 ? kForever - 1 : own - 1;
+  return is_lasting_ && own == 0 ? kUnbounded - 1 : own - 1;
 }
 
 std::vector<std::uint8_t> ClaimedProgress::of(CheckedCell& cell) const {

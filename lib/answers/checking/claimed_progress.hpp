@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "answers/checking/checked_cell.hpp"
+#include "answers/step_codes.hpp"
 
 namespace coordreq {
 
@@ -13,17 +14,17 @@ class ClaimedProgress {
   /// @pre unchecked: the spec has a goal; `context` outlives this object
   explicit ClaimedProgress(const CheckContext& context);
 
-  /// -2 outside S, -1 in S but not in K, kForever where the goal cannot be forced.
+  /// -2 outside S, -1 in S but not in K, kUnbounded where the goal cannot be forced.
   [[nodiscard]] std::int32_t arrival(std::size_t cell) const { return arrival_[cell]; }
   /// Whether P holds in the cell: the goal can be forced from it, and it is not in the goal, or the goal
   /// lasts.
   [[nodiscard]] bool is_on_the_way(std::size_t cell) const {
-    return arrival_[cell] >= (is_lasting_ ? 0 : 1) && arrival_[cell] != kForever;
+    return arrival_[cell] >= (is_lasting_ ? 0 : 1) && arrival_[cell] != kUnbounded;
   }
-  /// The greatest arrival in f(x,u); kForever if a cell outside K may be in it, or T by way of a `safe` side,
-  /// or if there is no post.
+  /// The greatest arrival in f(x,u); kUnbounded if a cell outside K may be in it, or T by way of a `safe`
+  /// side, or if there is no post.
   [[nodiscard]] std::int32_t worst(CheckedCell& cell, std::int64_t u) const;
-  /// The least arrival that agents can force with the next sample; `given`: the greatest. kForever if C is
+  /// The least arrival that agents can force with the next sample; `given`: the greatest. kUnbounded if C is
   /// empty.
   [[nodiscard]] std::int32_t best(CheckedCell& cell) const;
   /// The greatest worst() of a step of P. @pre unchecked: is_on_the_way()
@@ -42,7 +43,7 @@ class ClaimedProgress {
   const CheckContext& context_;
   bool is_lasting_;
   const std::vector<std::int32_t>& arrival_;
-  std::vector<std::int32_t> nearness_;  ///< [cell] kForever less arrival; negative outside K
+  std::vector<std::int32_t> nearness_;  ///< [cell] kUnbounded less arrival; negative outside K
 };
 
 }  // namespace coordreq

@@ -2,17 +2,18 @@
 
 #include <algorithm>
 
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 
 std::string step_words(std::int32_t value) {
-  return value == kForever ? "infinite" : std::to_string(value);
+  return value == kUnbounded ? "infinite" : std::to_string(value);
 }
 
 std::int32_t one_more(std::int32_t steps) {
-  return steps == kForever ? kForever : steps + 1;
+  return steps == kUnbounded ? kUnbounded : steps + 1;
 }
 
 std::uint64_t count_members(const std::vector<std::uint8_t>& set) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "answers/checking/claims.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -27,7 +28,7 @@ class ClaimedValues {
     if (values_ != nullptr) return (*values_)[cell];
     if (risks_ != nullptr) return std::bit_cast<std::int32_t>((*risks_)[cell]);
     if (safe_[cell] == 0) return kOutsideSafe;
-    return invariant_[cell] == 0 ? kOutsideInvariant : kForever;
+    return invariant_[cell] == 0 ? kOutsideInvariant : kUnbounded;
   }
 
  private:

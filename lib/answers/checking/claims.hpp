@@ -12,18 +12,10 @@
 
 namespace coordreq {
 
-/// Infinite delays, triggers and collision times, for all types in which they are stored.
-inline constexpr std::int32_t kForever = INT32_MAX;
-/// The delay of a cell outside S.
-inline constexpr std::int32_t kOutsideSafe = -2;
-inline constexpr std::int32_t kOutsideInvariant = -1;
-/// The approach delay of a cell in K from which the goal cannot be forced.
-inline constexpr std::int32_t kNoWayToGoal = -4;
-
 /// The values of one field of a results file; only the members of its kind are filled. Values over cells are
 /// [entry of the leading axis][cell, row-major], with one entry if there is no leading axis.
 struct FieldClaims {
-  /// Steps and choices. kForever: the largest number of the type, where it means unbounded.
+  /// Steps and choices. kUnbounded: the largest number of the type, where it means unbounded.
   std::vector<std::vector<std::int32_t>> values;
   std::vector<std::vector<std::uint8_t>> members;  ///< of sets: 0 or 1
   std::vector<std::vector<float>> reals;           ///< of shares and probabilities

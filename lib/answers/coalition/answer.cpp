@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/coalition/fields.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
@@ -41,12 +42,7 @@ Json coalition_json(const CoalitionMap& map, const ProblemSpec& spec) {
   return json;
 }
 
-}  // namespace
-
-std::string pair_name(const ProblemSpec& spec, const AgentPair& pair) {
-  return class_name(spec.agents, {pair.first, pair.second});
-}
-
+/// Adds CoalitionMap, if the spec has a horizon: "coalitions".
 std::vector<Stage> coalition_stages(const ProblemSpec& spec) {
   if (!spec.coordination.horizon) return {};
   return {{"coalitions", find_coalition_map}};
@@ -84,5 +80,19 @@ MemoryNeed coalition_memory(const EngineSizes& sizes, int /*threads*/) {
   const double width = is_short ? sizeof(std::uint8_t) : sizeof(std::uint32_t);
   return {.kept = sizes.lanes() * width + pairs * sizes.set(), .array = pairs * sizes.cells()};
 }
+
+}  // namespace
+
+std::string pair_name(const ProblemSpec& spec, const AgentPair& pair) {
+  return class_name(spec.agents, {pair.first, pair.second});
+}
+
+const Answer coalition_answer = {.stages = coalition_stages,
+                                 .memory = coalition_memory,
+                                 .fields = coalition_fields,
+                                 .fill = fill_coalition_fields,
+                                 .summarise = summarise_coalition,
+                                 .tell = tell_coalition,
+                                 .check = check_coalition};
 
 }  // namespace coordreq

@@ -1,4 +1,4 @@
-#include "answers/coalition/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 #include <tuple>
 #include <utility>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/cell_place.hpp"
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-constexpr std::int32_t kNoneSuffices = -3;
 
 /// The class of each agent.
 std::vector<std::size_t> class_of_agents(const PartitionSpec& partition, std::size_t agents) {
@@ -133,10 +133,10 @@ class CoalitionCheck : public AnswerCheck {
   [[nodiscard]] std::int32_t cheapest_at(std::size_t x) const {
     if (safe_[x] == 0) return kOutsideSafe;
     if (invariant_[x] == 0) return kOutsideInvariant;
-    std::int32_t best = kNoneSuffices;
+    std::int32_t best = kNoPartitionSuffices;
     for (std::size_t p = 0; p < rank_.size(); ++p) {
       if (delay_[p][x] < horizon_) continue;
-      if (best == kNoneSuffices || rank_[p] < rank_[at(best)]) best = static_cast<std::int32_t>(p);
+      if (best == kNoPartitionSuffices || rank_[p] < rank_[at(best)]) best = static_cast<std::int32_t>(p);
     }
     return best;
   }
@@ -210,7 +210,7 @@ class CoalitionCheck : public AnswerCheck {
   }
 
   [[nodiscard]] std::string words(std::int32_t value) const {
-    if (value == kNoneSuffices) return "no partition";
+    if (value == kNoPartitionSuffices) return "no partition";
     if (value == kOutsideSafe) return "not safe";
     return value == kOutsideInvariant ? "not invariant" : candidates_[at(value)].name;
   }
@@ -233,6 +233,11 @@ class CoalitionCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Checks the coalitions in a file against its delays, which check_layers() checks: for each cell the
+/// partitions whose delay reaches the horizon are compared by the cost of their cheapest network (Kruskal's
+/// algorithm), then by their largest class and name, and each pair of agents is looked for in all partitions
+/// of least cost. Also checks the sizes in the file.
+/// @returns null: the spec has no horizon
 std::unique_ptr<AnswerCheck> check_coalition(const CheckContext& context) {
   if (!context.spec->coordination.horizon) return nullptr;
   return std::make_unique<CoalitionCheck>(context);

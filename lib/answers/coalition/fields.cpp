@@ -9,6 +9,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
+#include "answers/step_codes.hpp"
 #include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
@@ -19,7 +20,7 @@ namespace {
 /// [level of CoalitionMap::chosen] Its value in the file, kNoPartitionSuffices left out.
 template <class Integer>
 std::vector<Integer> codes(const CoalitionMap& map) {
-  std::vector<Integer> result = {static_cast<Integer>(DelayLayers::kOutsideInvariant)};
+  std::vector<Integer> result = {static_cast<Integer>(kOutsideInvariant)};
   for (const CoalitionChoice& choice : map.choices) result.push_back(static_cast<Integer>(choice.partition));
   return result;
 }
@@ -66,6 +67,7 @@ std::vector<std::string> pair_names(const ProblemSpec& spec) {
   return names;
 }
 
+/// The cheapest partition that is enough, and the pairs that cannot do without one another.
 Fields coalition_fields(const ProblemSpec& spec) {
   if (!spec.coordination.horizon) return {};
   const std::size_t partitions = spec.coordination.partitions.size();
@@ -82,8 +84,8 @@ Fields coalition_fields(const ProblemSpec& spec) {
                      "horizon") +
            std::vector<FieldAttribute>{{"horizon", *spec.coordination.horizon}} + counted_cells(partitions) +
            std::vector<FieldAttribute>{flags({{kNoPartitionSuffices, "no_partition_suffices"},
-                                              {DelayLayers::kOutsideSafe, "not_safe"},
-                                              {DelayLayers::kOutsideInvariant, "not_invariant"}})},
+                                              {kOutsideSafe, "not_safe"},
+                                              {kOutsideInvariant, "not_invariant"}})},
        .shown = {.asked = {.name = "partition",
                            .words = "cheapest partition",
                            .meanings = {{"no_partition_suffices", "none: no partition of the file suffices"},
@@ -112,6 +114,7 @@ Fields coalition_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_coalition_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const map = answers.find<CoalitionMap>();
   if (map == nullptr) return;

@@ -50,8 +50,8 @@ void find_abstraction(AnalysisContext& context, const StageWork& work) {
       [&context](Archive& archive) { serialise(archive, context.spec, *context.abstraction); });
 }
 
-}  // namespace
-
+/// "abstraction" and "safe set": Answers::context.
+/// @throws SpecError for errors that show only when the system is built
 std::vector<Stage> context_stages(const ProblemSpec& /*spec*/) {
   return {{"abstraction",
            [](Answers& answers, const StageWork& work) { find_abstraction(answers.context, work); }},
@@ -74,5 +74,13 @@ void summarise_context(const Answers& answers, Json& summary, Json& /*work*/) {
   }
   summary["safe"] = context.safe_cells;
 }
+
+}  // namespace
+
+const Answer context_answer = {.stages = context_stages,
+                               .memory = context_memory,
+                               .fields = context_fields,
+                               .fill = fill_context_fields,
+                               .summarise = summarise_context};
 
 }  // namespace coordreq

@@ -2,15 +2,14 @@
 
 #include <vector>
 
-#include "answers/answers.hpp"
-#include "answers/stage.hpp"
-#include "base/json.hpp"
+#include "answers/answer.hpp"
 
 namespace coordreq {
 
-/// "abstraction" and "safe set": Answers::context.
-/// @throws SpecError for errors that show only when the system is built
-[[nodiscard]] std::vector<Stage> context_stages(const ProblemSpec& spec);
-void summarise_context(const Answers& answers, Json& summary, Json& work);
+extern const Answer context_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields context_fields(const ProblemSpec& spec);
+void fill_context_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

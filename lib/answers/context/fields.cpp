@@ -1,10 +1,11 @@
-#include "answers/context/fields.hpp"
+#include "answers/context/answer.hpp"
 
 #include <algorithm>
 #include <memory>
 
 #include "answers/field_parts.hpp"
 #include "answers/last_value_cache.hpp"
+#include "base/thread_team.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
@@ -85,6 +86,7 @@ ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t I
 
 }  // namespace
 
+/// The axes of states, inputs and partitions; on request the finite abstraction.
 Fields context_fields(const ProblemSpec& spec) {
   Fields fields;
   for (const StateSpec& state : spec.states) fields.push_back(state_axis(state));
@@ -97,6 +99,7 @@ Fields context_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_context_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const ProblemSpec& spec = answers.context.spec;
   const auto table = std::make_shared<TableCache>();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/invariance/answer.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -95,8 +96,7 @@ void find_a_convention(Answers& answers, const StageWork& work) {
   if (work.store != nullptr) work.store->finish(exchange);
 }
 
-}  // namespace
-
+/// Adds ConventionAnswer, if the spec asks for one: "convention".
 std::vector<Stage> convention_stages(const ProblemSpec& spec) {
   if (!spec.coordination.convention) return {};
   return {{"convention", find_a_convention}};
@@ -130,5 +130,16 @@ MemoryNeed convention_memory(const EngineSizes& sizes, int threads) {
           .written = sizes.readers(threads),
           .array = freedom};
 }
+
+}  // namespace
+
+const Answer convention_answer = {.stages = convention_stages,
+                                  .memory = convention_memory,
+                                  .fields = convention_fields,
+                                  .fill = fill_convention_fields,
+                                  .summarise = summarise_convention,
+                                  .policies = convention_policies,
+                                  .explain = explain_convention,
+                                  .check = check_convention};
 
 }  // namespace coordreq

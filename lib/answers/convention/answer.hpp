@@ -4,12 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "answers/answers.hpp"
+#include "answers/answer.hpp"
 #include "answers/convention/convention_freedom.hpp"
 #include "answers/goal/answer.hpp"
-#include "answers/memory_need.hpp"
-#include "answers/stage.hpp"
-#include "base/json.hpp"
 #include "engine/action_groups.hpp"
 
 namespace coordreq {
@@ -21,9 +18,12 @@ struct ConventionAnswer {
   ConventionFreedom freedom;
 };
 
-/// Adds ConventionAnswer, if the spec asks for one: "convention".
-[[nodiscard]] std::vector<Stage> convention_stages(const ProblemSpec& spec);
-[[nodiscard]] MemoryNeed convention_memory(const EngineSizes& sizes, int threads);
-void summarise_convention(const Answers& answers, Json& summary, Json& work);
+extern const Answer convention_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields convention_fields(const ProblemSpec& spec);
+void fill_convention_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+[[nodiscard]] std::vector<AnswerPolicy> convention_policies(const ProblemSpec& spec);
+[[nodiscard]] Explained explain_convention(const ExplainContext& context);
 
 }  // namespace coordreq

@@ -1,4 +1,4 @@
-#include "answers/convention/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_progress.hpp"
 #include "model/input_class.hpp"
 #include "spec/problem_spec.hpp"
@@ -186,6 +187,10 @@ class ConventionCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Checks the convention of one cell after the other, from C(x) by its definition: from the lowest-numbered
+/// joint input on, agents in order add their actions, ascending, as long as the product stays in C(x). Where
+/// C(x) is perhaps larger than that of the analysis, another convention is wrong only where it leaves C(x).
+/// @returns null: the spec asks for none
 std::unique_ptr<AnswerCheck> check_convention(const CheckContext& context) {
   if (!context.spec->coordination.convention) return nullptr;
   return std::make_unique<ConventionCheck>(context);

@@ -27,6 +27,7 @@ std::string paths::convention(const AgentSpec& agent) {
   return "/actions:convention/" + agent.name;
 }
 
+/// The freedom of each agent under the convention; on request its actions.
 Fields convention_fields(const ProblemSpec& spec) {
   if (!spec.coordination.convention) return {};
   Fields fields;
@@ -49,6 +50,7 @@ Fields convention_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_convention_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const convention = answers.find<ConventionAnswer>();
   if (convention == nullptr) return;

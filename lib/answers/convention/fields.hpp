@@ -14,10 +14,4 @@ inline constexpr char kConventionFreedom[] = "/convention_freedom";
 
 }  // namespace paths
 
-/// The freedom of each agent under the convention; on request its actions.
-[[nodiscard]] Fields convention_fields(const ProblemSpec& spec);
-
-/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
-void fill_convention_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
 }  // namespace coordreq

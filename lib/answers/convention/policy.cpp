@@ -1,4 +1,5 @@
-#include "answers/convention/policy.hpp"
+
+#include "answers/convention/answer.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,7 @@
 
 #include "answers/convention/convention.hpp"
 #include "answers/convention/fields.hpp"
-#include "answers/goal/policy.hpp"
+#include "answers/goal/answer.hpp"
 #include "base/grouped.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
@@ -46,8 +47,8 @@ class ConventionPolicy : public CellPolicy {
   std::unique_ptr<CellPolicy> way_;
 };
 
-}  // namespace
-
+/// The actions that the convention leaves to each agent, which needs no coordination at all: on the way to a
+/// goal in P(x), else in C(x).
 AnswerPolicy convention_policy() {
   return {.name = "convention",
           .words = "actions",
@@ -59,6 +60,9 @@ AnswerPolicy convention_policy() {
                        std::size_t agent) { return paths::convention(spec.agents[agent]); }};
 }
 
+}  // namespace
+
+/// Explains how many of its actions each agent would keep, and that it could be silent for ever.
 Explained explain_convention(const ExplainContext& context) {
   Explained result{.key = "convention", .found = std::make_shared<Json>(Json::array())};
   if (context.delay < 0) return result;
@@ -79,6 +83,7 @@ Explained explain_convention(const ExplainContext& context) {
   return result;
 }
 
+/// None unless the spec asks for a convention.
 std::vector<AnswerPolicy> convention_policies(const ProblemSpec& spec) {
   if (!spec.coordination.convention) return {};
   return {convention_policy()};

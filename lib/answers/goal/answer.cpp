@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/goal/approach_layers.hpp"
 #include "answers/goal/arrival.hpp"
 #include "answers/invariance/answer.hpp"
@@ -105,8 +106,7 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   find_best_cell(answers.context, work.team, its_layers);
 }
 
-}  // namespace
-
+/// Adds Goal, if the spec has one: "arrival", then "approach PARTITION" for each partition.
 std::vector<Stage> goal_stages(const ProblemSpec& spec) {
   if (!spec.goal) return {};
   std::vector<Stage> stages = {{"arrival", find_arrival}};
@@ -131,27 +131,6 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   }
 }
 
-std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, bool is_in_goal_only) {
-  auto result = std::make_unique<ControllerParts>();
-  Controller everywhere = answers.get<Controller>();
-  const Goal* const goal = answers.find<Goal>();
-  if (goal == nullptr) {
-    result->parts.push_back({everywhere, &*answers.context.hull});
-    return result;
-  }
-  // In cells where the task is over no convention is needed.
-  const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
-  const bool is_lasting = answers.context.spec.is_goal_lasting();
-  result->rest = is_in_goal_only && is_lasting ? CellSet(goal->cells.rows(), goal->cells.row_length())
-                 : is_in_goal_only             ? goal->cells
-                                   : part_of(going_on, goal->away, false, answers.context.shared_rows());
-  everywhere.whole = everywhere.invariant;
-  everywhere.invariant = &result->rest;
-  result->parts.push_back({everywhere, &*answers.context.hull});
-  result->parts.push_back({goal->progress, &goal->engine->hull()});
-  return result;
-}
-
 void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.goal) return;
   const std::int64_t longest = source.attribute("/arrival", "longest_arrival");
@@ -169,6 +148,7 @@ void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   add_then(spec, returns, info["goal"]);
 }
 
+/// Warns of a goal at which no cell arrives, or none but its own.
 Warnings advise_on_goal(const Answers& answers) {
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr || answers.context.safe_cells == 0) return {};
@@ -221,5 +201,38 @@ MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
         sizes.groups({whole_class(sizes.model().inputs())}) + 2 * sizes.readers(threads) + sizes.set();
   return need;
 }
+
+}  // namespace
+
+std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, bool is_in_goal_only) {
+  auto result = std::make_unique<ControllerParts>();
+  Controller everywhere = answers.get<Controller>();
+  const Goal* const goal = answers.find<Goal>();
+  if (goal == nullptr) {
+    result->parts.push_back({everywhere, &*answers.context.hull});
+    return result;
+  }
+  // In cells where the task is over no convention is needed.
+  const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
+  const bool is_lasting = answers.context.spec.is_goal_lasting();
+  result->rest = is_in_goal_only && is_lasting ? CellSet(goal->cells.rows(), goal->cells.row_length())
+                 : is_in_goal_only             ? goal->cells
+                                   : part_of(going_on, goal->away, false, answers.context.shared_rows());
+  everywhere.whole = everywhere.invariant;
+  everywhere.invariant = &result->rest;
+  result->parts.push_back({everywhere, &*answers.context.hull});
+  result->parts.push_back({goal->progress, &goal->engine->hull()});
+  return result;
+}
+
+const Answer goal_answer = {.stages = goal_stages,
+                            .memory = goal_memory,
+                            .fields = goal_fields,
+                            .fill = fill_goal_fields,
+                            .summarise = summarise_goal,
+                            .tell = tell_goal,
+                            .advise = advise_on_goal,
+                            .policies = goal_policies,
+                            .check = check_goal};
 
 }  // namespace coordreq

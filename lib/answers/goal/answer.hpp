@@ -5,16 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "answers/answers.hpp"
-#include "answers/field_source.hpp"
+#include "answers/answer.hpp"
 #include "answers/goal/lasting_goal.hpp"
 #include "answers/goal/progress_engine.hpp"
 #include "answers/invariance/controller.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "answers/memory_need.hpp"
-#include "answers/stage.hpp"
-#include "answers/warning.hpp"
-#include "base/json.hpp"
 #include "engine/wave.hpp"
 
 namespace coordreq {
@@ -41,14 +36,6 @@ struct Goal {
   WaveCounts counts;
 };
 
-/// Adds Goal, if the spec has one: "arrival", then "approach PARTITION" for each partition.
-[[nodiscard]] std::vector<Stage> goal_stages(const ProblemSpec& spec);
-[[nodiscard]] MemoryNeed goal_memory(const EngineSizes& sizes, int threads);
-void summarise_goal(const Answers& answers, Json& summary, Json& work);
-/// Warns of a goal at which no cell arrives, or none but its own.
-[[nodiscard]] Warnings advise_on_goal(const Answers& answers);
-void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info);
-
 /// C in cells without progress, and P on W \ G (of a lasting goal on W): controllers of different cells,
 /// which together are the controller of a run towards the goal; without a goal C alone.
 struct PartialController {
@@ -63,5 +50,14 @@ struct ControllerParts {
 /// @param is_in_goal_only whether C holds in G alone, and not in all of K outside W \ G
 [[nodiscard]] std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers,
                                                                       bool is_in_goal_only);
+
+extern const Answer goal_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields goal_fields(const ProblemSpec& spec);
+void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+[[nodiscard]] std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec);
+/// @pre unchecked: there is a goal
+[[nodiscard]] std::unique_ptr<CellPolicy> make_goal_policy(const PolicyContext& context);
 
 }  // namespace coordreq

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 #include "base/thread_team.hpp"
 #include "engine/level_map.hpp"
@@ -22,14 +23,11 @@
 // (Arrivals that sink from infinity would need readers that take maxima.)
 namespace coordreq {
 
-/// Arrival of a cell from which the goal cannot be forced.
-inline constexpr std::int32_t kNeverArrives = std::numeric_limits<std::int32_t>::max();
-
 /// The arrival that a level of nearness stands for. @pre the level is that of a cell in K
 template <class Level>
 [[nodiscard]] std::int32_t arrival_of(Level nearness) {
   REQUIRES(nearness > 0);
-  if (nearness <= 1) return kNeverArrives;
+  if (nearness <= 1) return kUnbounded;
   return static_cast<std::int32_t>(LevelRows<Level>::kTop - nearness);
 }
 /// The arrival of a cell (row-major linear index) in K.

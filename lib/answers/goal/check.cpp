@@ -1,4 +1,4 @@
-#include "answers/goal/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_progress.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/goal/check_lasting.hpp"
 #include "answers/invariance/check_safe.hpp"
+#include "answers/step_codes.hpp"
 #include "model/input_class.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
@@ -18,7 +20,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kMustStand = -3;
 /// Findings of one partition that all threads share.
 struct ApproachTallies {
   explicit ApproachTallies(const std::string& name)
@@ -154,6 +155,9 @@ class GoalChecker : public CellChecker {
     }
   }
 
+  /// Checks arrivals, approach delays and their triggers by their local equations: the equation of arrival
+  /// has exactly one solution, so that arrivals which obey it everywhere are right; and the cells of the
+  /// goal, by an evaluation of its own. Null without a goal.
   void check_goal(const CheckedCell& cell, bool is_claimed) {
     tallies_.goal.add_checked(1);
     const SafeVerdict verdict = judge_.judge(cell.number(), is_claimed);
@@ -188,12 +192,12 @@ class GoalChecker : public CellChecker {
     const LastingCheck::Judged judged = lasting_->judge(cell, claimed, verdict, best);
     tallies_.goal.add_checked(1);
     if (judged.is_unproven) tallies_.goal.add_unproven();
-    if (context_.spec->goal_then == GoalThen::come_back && claimed == 0 && best != kForever) {
+    if (context_.spec->goal_then == GoalThen::come_back && claimed == 0 && best != kUnbounded) {
       std::int32_t worst = best;
       for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
         const std::int32_t own =
-            cell.admitted()[u] == 0 ? kForever : by_definition_.worst(cell, static_cast<std::int64_t>(u));
-        if (own != kForever) worst = std::max(worst, own);
+            cell.admitted()[u] == 0 ? kUnbounded : by_definition_.worst(cell, static_cast<std::int64_t>(u));
+        if (own != kUnbounded) worst = std::max(worst, own);
       }
       lasting_->add_step(best, worst);
     }
@@ -207,8 +211,8 @@ class GoalChecker : public CellChecker {
     const std::int32_t arrival = claims_.arrival[cell.at()];
     std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
     if (cell.is_invariant()) {
-      expected = arrival == kForever                   ? kNoWayToGoal
-                 : cell.is_over()                      ? kForever
+      expected = arrival == kUnbounded                 ? kOutsideWinning
+                 : cell.is_over()                      ? kUnbounded
                  : arrival == 0 && lasting_ == nullptr ? claims_.safety[p][cell.at()]
                                                        : approach_by_definition(cell, p);
       const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
@@ -235,7 +239,7 @@ class GoalChecker : public CellChecker {
       if (cell.is_forbidden(u) || by_definition_.worst(cell, u) > most) return 0;
       choices.push_back(u);
     }
-    std::int32_t worst = kForever;
+    std::int32_t worst = kUnbounded;
     for (const std::int64_t u : choices) worst = std::min(worst, cell.least(u, claims_.delay[p], 0));
     return one_more(std::max(worst, 0));
   }
@@ -245,9 +249,9 @@ class GoalChecker : public CellChecker {
     tally.add_checked(1);
     const std::int32_t delay = claims_.delay[p][cell.at()];
     const std::int64_t needed = context_.spec->coordination.connection_delay;
-    const std::int32_t expected = delay < 0 || delay == kForever ? delay
-                                  : delay < needed               ? kMustStand
-                                                                 : static_cast<std::int32_t>(delay - needed);
+    const std::int32_t expected = delay < 0 || delay == kUnbounded ? delay
+                                  : delay < needed                 ? kMustBeConnected
+                                                   : static_cast<std::int32_t>(delay - needed);
     const std::int32_t claimed = claims_.trigger[p][cell.at()];
     if (claimed != expected) add_wrong_steps(tally, cell, claimed, expected);
   }
@@ -286,7 +290,7 @@ class GoalCheck : public AnswerCheck {
     std::int64_t goal = 0, winning = 0, longest = -1;
     for (const std::int32_t arrival : claims_.arrival) {
       goal += arrival == 0 ? 1 : 0;
-      if (arrival < 0 || arrival == kForever) continue;
+      if (arrival < 0 || arrival == kUnbounded) continue;
       ++winning;
       longest = std::max(longest, std::int64_t{arrival});
     }
@@ -330,9 +334,10 @@ class GoalCheck : public AnswerCheck {
     bool unbounded = false;
     for (const std::int32_t delay : claims_.delay[p]) {
       if (delay < 0) continue;
-      unbounded = unbounded || delay == kForever;
-      if (delay != kForever) last = std::max(last, std::int64_t{delay});
-      for (std::size_t k = 0; k < length && (delay == kForever || static_cast<std::int64_t>(k) <= delay); ++k)
+      unbounded = unbounded || delay == kUnbounded;
+      if (delay != kUnbounded) last = std::max(last, std::int64_t{delay});
+      for (std::size_t k = 0; k < length && (delay == kUnbounded || static_cast<std::int64_t>(k) <= delay);
+           ++k)
         ++sizes[k];
     }
     for (std::size_t k = 0; k < length; ++k)
@@ -353,7 +358,8 @@ class GoalCheck : public AnswerCheck {
     if (!claimed && !unbounded) return last >= *most;  // the layers were empty before
     std::int64_t fixed = 0;                            // A_k is constant from here on
     for (const std::int32_t delay : claims_.delay[p]) {
-      if (delay >= 0 && delay != kForever && delay < *most) fixed = std::max(fixed, std::int64_t{delay} + 1);
+      if (delay >= 0 && delay != kUnbounded && delay < *most)
+        fixed = std::max(fixed, std::int64_t{delay} + 1);
     }
     if (lasting_) return fixed >= *most;
     const std::int64_t of_safety = claims_.of_safety[p];

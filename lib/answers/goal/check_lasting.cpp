@@ -5,6 +5,7 @@
 
 #include "answers/checking/claimed_values.hpp"
 #include "answers/checking/comparison.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -32,7 +33,7 @@ LastingCheck::Judged LastingCheck::judge(const CheckedCell& cell, std::int32_t c
                                          std::int32_t best) {
   const bool can_be_in = verdict != SafeVerdict::unsafe;
   const bool can_be_out = verdict != SafeVerdict::safe;
-  const std::int32_t in_goal = is_return() && best != kForever ? 0 : best;
+  const std::int32_t in_goal = is_return() && best != kUnbounded ? 0 : best;
   const std::int32_t outside = one_more(best);
   const bool fits_in = can_be_in && claimed == in_goal;
   ++cells_;
@@ -84,25 +85,25 @@ std::vector<std::int64_t> LastingCheck::those(const std::vector<std::int64_t>& c
 /// Cells of G with arrival above 0 from which the world cannot force a sample outside G after which as many
 /// are still to come. (Outside G the equation of arrival says that it can force one sample less.)
 std::vector<std::int64_t> LastingCheck::not_forced(ThreadTeam& team) const {
-  std::vector<std::int32_t> nearness(arrival_.size(), kForever);  // of what the world wants to come to
+  std::vector<std::int32_t> nearness(arrival_.size(), kUnbounded);  // of what the world wants to come to
   std::vector<std::int64_t> open;
   for (std::size_t x = 0; x < arrival_.size(); ++x) {
     if (arrival_[x] <= 0) continue;
     if (is_goal_[x] != 0) {
       open.push_back(static_cast<std::int64_t>(x));
     } else {
-      nearness[x] = kForever - arrival_[x];
+      nearness[x] = kUnbounded - arrival_[x];
     }
   }
   while (true) {
     const std::vector<std::int64_t> left = those(open, team, [&](CheckedCell& cell, std::int64_t u) {
-      return cell.least(u, nearness, -1) > kForever - arrival_[cell.at()];
+      return cell.least(u, nearness, -1) > kUnbounded - arrival_[cell.at()];
     });
     if (left.size() == open.size()) return open;
     std::vector<std::int64_t> forced;
     std::set_difference(open.begin(), open.end(), left.begin(), left.end(), std::back_inserter(forced));
     for (const std::int64_t x : forced)
-      nearness[static_cast<std::size_t>(x)] = kForever - arrival_[static_cast<std::size_t>(x)];
+      nearness[static_cast<std::size_t>(x)] = kUnbounded - arrival_[static_cast<std::size_t>(x)];
     open = left;
   }
 }
@@ -113,9 +114,9 @@ std::vector<std::int64_t> LastingCheck::not_lost(ThreadTeam& team) const {
   std::vector<std::int64_t> kept;
   std::vector<std::uint8_t> in_whole(arrival_.size(), 0), winning(arrival_.size(), 0);
   for (std::size_t x = 0; x < arrival_.size(); ++x) {
-    if (arrival_[x] == kForever) kept.push_back(static_cast<std::int64_t>(x));
+    if (arrival_[x] == kUnbounded) kept.push_back(static_cast<std::int64_t>(x));
     if (arrival_[x] >= 0) in_whole[x] = 1;
-    if (arrival_[x] >= 0 && arrival_[x] != kForever) winning[x] = 1;
+    if (arrival_[x] >= 0 && arrival_[x] != kUnbounded) winning[x] = 1;
   }
   while (true) {
     std::vector<std::uint8_t> reached = winning;

@@ -11,6 +11,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/fields.hpp"
 #include "answers/layers/trigger_table.hpp"
+#include "answers/step_codes.hpp"
 #include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
@@ -18,8 +19,8 @@
 namespace coordreq {
 namespace {
 
-const FieldFlag kNotSafe{DelayLayers::kOutsideSafe, "not_safe"};
-const FieldFlag kNotInvariant{DelayLayers::kOutsideInvariant, "not_invariant"};
+const FieldFlag kNotSafe{kOutsideSafe, "not_safe"};
+const FieldFlag kNotInvariant{kOutsideInvariant, "not_invariant"};
 const FieldFlag kNotWinning{kOutsideWinning, "goal_cannot_be_forced"};
 
 std::string progress_path(const ProblemSpec& spec, const PartitionSpec& partition, std::size_t c) {
@@ -54,7 +55,7 @@ Field arrival_field(const ProblemSpec& spec) {
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes(spec),
-          .least = DelayLayers::kOutsideSafe,
+          .least = kOutsideSafe,
           .attributes = described(words.description) +
                         std::vector<FieldAttribute>{
                             flags({kNotSafe, kNotInvariant, {kLargestValue, "goal_cannot_be_forced"}}),
@@ -83,15 +84,14 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
   fields.push_back(steps_field(
       "approach_trigger", spec, kOutsideWinning,
       described("steps until the agents must start to connect, so as to lose no time to the goal") +
-          std::vector<FieldAttribute>{
-              flags({kNotWinning,
-                     {TriggerTable::kMustBeConnected, "connection_must_stand_already"},
-                     kNotSafe,
-                     kNotInvariant,
-                     {kLargestValue, "never"}}),
-              {"connection_delay", spec.coordination.connection_delay}},
+          std::vector<FieldAttribute>{flags({kNotWinning,
+                                             {kMustBeConnected, "connection_must_stand_already"},
+                                             kNotSafe,
+                                             kNotInvariant,
+                                             {kLargestValue, "never"}}),
+                                      {"connection_delay", spec.coordination.connection_delay}},
       {.column = "approach_countdown",
-       .below_zero = TriggerTable::kMustBeConnected,
+       .below_zero = kMustBeConnected,
        .asked = {.words = "approach: connect in"}}));
 }
 
@@ -101,9 +101,9 @@ FillArray fill_arrival(const Goal& goal, const LevelMap& times, const CellOrder&
     auto* const steps = static_cast<Integer*>(out);
     goal.nearness.visit([&](const auto& levels) {
       convert_stretch(levels, order, begin, count, steps, [](auto level) {
-        if (level == 0) return static_cast<Integer>(DelayLayers::kOutsideInvariant);
+        if (level == 0) return static_cast<Integer>(kOutsideInvariant);
         const std::int32_t arrival = arrival_of(level);
-        return arrival == kNeverArrives ? std::numeric_limits<Integer>::max() : static_cast<Integer>(arrival);
+        return arrival == kUnbounded ? std::numeric_limits<Integer>::max() : static_cast<Integer>(arrival);
       });
     });
     mark_unsafe(times, order, begin, count, steps);
@@ -169,6 +169,8 @@ ResultArray progress_bits(std::shared_ptr<const ControllerParts> parts, std::vec
 
 }  // namespace
 
+/// Arrival, approach delays and triggers, sizes of approach layers, F; on request the progress controller and
+/// its projections on the classes. None without a goal.
 Fields goal_fields(const ProblemSpec& spec) {
   if (!spec.goal) return {};
   Fields fields = {arrival_field(spec)};
@@ -193,6 +195,7 @@ Fields goal_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr) return;

@@ -18,14 +18,4 @@ inline constexpr char kProgress[] = "/controller:goal";
 
 }  // namespace paths
 
-/// Approach delay of a cell in K from which the goal cannot be forced.
-inline constexpr std::int32_t kOutsideWinning = -4;
-
-/// Arrival, approach delays and triggers, sizes of approach layers, F; on request the progress controller and
-/// its projections on the classes. None without a goal.
-[[nodiscard]] Fields goal_fields(const ProblemSpec& spec);
-
-/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
-void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
 }  // namespace coordreq

@@ -1,8 +1,10 @@
-#include "answers/goal/policy.hpp"
+
+#include "answers/goal/answer.hpp"
 
 #include "answers/goal/arrival.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/one_cell/progress_inputs.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -17,7 +19,7 @@ class GoalPolicy : public CellPolicy {
 
   bool holds(std::int64_t cell) override {
     const std::int32_t arrival = arrival_(cell);
-    return arrival >= least_ && arrival != kNeverArrives;
+    return arrival >= least_ && arrival != kUnbounded;
   }
   const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
     progressing_ = progress_.of(cell, admissible);
@@ -33,6 +35,9 @@ class GoalPolicy : public CellPolicy {
 
 }  // namespace
 
+/// On the way to the goal (contract, section 5), in W \ G: agents who coordinate choose from P(x), silent
+/// agents from IND_P(x), for as many steps as the approach delay. Of a lasting goal (section 11) in W. None
+/// without a goal.
 std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
   if (!spec.goal) return {};
   const bool is_reached_once = spec.goal_then == GoalThen::safe;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/work_json.hpp"
@@ -35,15 +36,9 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   going_on.controller.whole = &result.invariant;
 }
 
-}  // namespace
-
+/// Adds Invariance, with the Controller of its K, and GoingOn: "invariance".
 std::vector<Stage> invariance_stages(const ProblemSpec& /*spec*/) {
   return {{"invariance", find_invariance_set}};
-}
-
-std::string guarantee_of(const ProblemSpec& spec) {
-  if (spec.abstraction.safe == Membership::center) return "samples-center";
-  return spec.abstraction.between_samples ? "continuous" : "samples";
 }
 
 void summarise_invariance(const Answers& answers, Json& summary, Json& work) {
@@ -70,5 +65,20 @@ MemoryNeed invariance_memory(const EngineSizes& sizes, int threads) {
   need.array = std::max(need.array, sizes.packed_pairs(inputs.count()));
   return need;
 }
+
+}  // namespace
+
+std::string guarantee_of(const ProblemSpec& spec) {
+  if (spec.abstraction.safe == Membership::center) return "samples-center";
+  return spec.abstraction.between_samples ? "continuous" : "samples";
+}
+
+const Answer invariance_answer = {.stages = invariance_stages,
+                                  .memory = invariance_memory,
+                                  .fields = invariance_fields,
+                                  .fill = fill_invariance_fields,
+                                  .summarise = summarise_invariance,
+                                  .tell = tell_invariance,
+                                  .check = check_invariance};
 
 }  // namespace coordreq

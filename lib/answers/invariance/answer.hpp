@@ -3,13 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "answers/answers.hpp"
-#include "answers/field_source.hpp"
+#include "answers/answer.hpp"
 #include "answers/invariance/controller.hpp"
 #include "answers/invariance/invariance.hpp"
-#include "answers/memory_need.hpp"
-#include "answers/stage.hpp"
-#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -20,13 +16,14 @@ struct GoingOn {
   Controller controller;
 };
 
-/// Adds Invariance, with the Controller of its K, and GoingOn: "invariance".
-[[nodiscard]] std::vector<Stage> invariance_stages(const ProblemSpec& spec);
 /// The guarantee of a result of this spec: "samples", "samples-center" or "continuous" (contract, "What is
 /// guaranteed"). Safety at centres proves nothing about tubes, so that it is never "continuous".
 [[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
-[[nodiscard]] MemoryNeed invariance_memory(const EngineSizes& sizes, int threads);
-void summarise_invariance(const Answers& answers, Json& summary, Json& work);
-void tell_invariance(const ProblemSpec& spec, const FieldSource& source, Json& info);
+
+extern const Answer invariance_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields invariance_fields(const ProblemSpec& spec);
+void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

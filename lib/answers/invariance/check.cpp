@@ -1,12 +1,14 @@
-#include "answers/invariance/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/invariance/check_safe.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -38,7 +40,7 @@ class SetChecker : public CellChecker {
       check_escape(cell);
     } else if (cell.is_over()) {  // the check of the goal checks that it is
       tallies_.invariant.add_checked(1);
-      check_collision_time(cell, kForever);
+      check_collision_time(cell, kUnbounded);
     } else {
       check_stay(cell);
     }
@@ -68,7 +70,7 @@ class SetChecker : public CellChecker {
   void check_escape(CheckedCell& cell) {
     const bool maximal = context_.spec->controller.synthesis == Synthesis::maximal;
     bool any = false;
-    std::int32_t best = maximal ? 0 : kForever;
+    std::int32_t best = maximal ? 0 : kUnbounded;
     for (std::int64_t u = 0; u < context_.inputs->count(); ++u) {
       if (!cell.is_allowed(u)) continue;
       any = true;
@@ -76,7 +78,7 @@ class SetChecker : public CellChecker {
       best = maximal ? std::max(best, time) : std::min(best, time);
     }
     tallies_.invariant.add_checked(1);
-    if (any && best == kForever) {
+    if (any && best == kUnbounded) {
       if (context_.sound_only()) {
         tallies_.invariant.add_unproven();
       } else {
@@ -88,7 +90,7 @@ class SetChecker : public CellChecker {
 
   /// Checks a cell of K: that it can be kept in K.
   void check_stay(const CheckedCell& cell) {
-    check_collision_time(cell, kForever);
+    check_collision_time(cell, kUnbounded);
     tallies_.invariant.add_checked(1);
     if (context_.spec->controller.synthesis == Synthesis::given && !cell.all_stay())
       wrong(tallies_.invariant, cell, "in K, but an allowed input leads out of it");
@@ -146,7 +148,7 @@ class InvarianceCheck : public AnswerCheck {
       sizes.expect(words, claims.at(path).cells.front(), count_members(claims.members(path)));
     std::int64_t last = 0;
     for (const std::int32_t time : claims.values("/collision_time")) {
-      if (time != kForever) last = std::max(last, std::int64_t{time});
+      if (time != kUnbounded) last = std::max(last, std::int64_t{time});
     }
     sizes.expect("iterations", claims.attribute("/collision_time", "iterations"),
                  last + 1);  // the last sweep removes nothing
@@ -170,6 +172,17 @@ class InvarianceCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Checks S, K, collision times and C(x), straight from the definitions, one cell after the other and for
+/// each every joint input. A pair without post is worth 0; a pair that has left safely, and every cell of K,
+/// are worth infinity:
+/// - S by its definition;
+/// - each cell of K keeps an allowed input whose post lies in K (`given`: every allowed input, and there is
+///   one);
+/// - for x in S but not in K: collision_time(x) = 1 + max (`given`: min) over allowed u of min over y in f(x,
+///   u) of collision_time(y), 1 without allowed inputs. By induction on the time, no cell outside K could be
+///   in a larger K;
+/// - a stored controller has the inputs of C(x);
+/// - |S|, |K| and the number of sweeps against the cells.
 std::unique_ptr<AnswerCheck> check_invariance(const CheckContext& context) {
   return std::make_unique<InvarianceCheck>(context);
 }

@@ -26,6 +26,7 @@ Field set_of_cells(const std::string& name, const std::string& compared, const P
 
 }  // namespace
 
+/// S, K and collision times; on request C(x), and the pairs that `controller.file` lists.
 Fields invariance_fields(const ProblemSpec& spec) {
   Fields fields = {set_of_cells("safe", "safe set", spec, "cell is in the safe set S"),
                    set_of_cells("invariant", "invariance set", spec, "cell is in the invariance set K")};
@@ -52,6 +53,7 @@ Fields invariance_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
   const AnalysisContext& context = answers.context;
   const auto& invariance = answers.get<Invariance>();

@@ -19,10 +19,4 @@ inline constexpr char kListed[] = "/controller:file";
 
 }  // namespace paths
 
-/// S, K and collision times; on request C(x), and the pairs that `controller.file` lists.
-[[nodiscard]] Fields invariance_fields(const ProblemSpec& spec);
-
-/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
-void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
 }  // namespace coordreq

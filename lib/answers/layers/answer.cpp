@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/best_cells.hpp"
@@ -134,33 +135,6 @@ Json partition_json(const AnalysisContext& context, const PartitionSpec& partiti
   return json;
 }
 
-}  // namespace
-
-PartitionActions::PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team)
-    : grouping(*answers.context.engine,
-               input_classes(answers.context.spec, answers.context.abstraction->inputs,
-                             answers.context.spec.coordination.partitions[p]),
-               team),
-      symmetry(
-          answers.context.symmetry(input_classes(answers.context.spec, answers.context.abstraction->inputs,
-                                                 answers.context.spec.coordination.partitions[p]))),
-      projections(answers.get<GoingOn>().controller, grouping, team,
-                  answers.context.equal(symmetry ? &*symmetry : nullptr)) {}
-
-std::vector<Stage> layers_stages(const ProblemSpec& spec) {
-  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
-  std::vector<Stage> stages;
-  for (const std::size_t p : coarsest_first(partitions)) {
-    stages.push_back({"layers " + partitions[p].name, [p](Answers& answers, const StageWork& work) {
-                        const std::size_t count = answers.context.spec.coordination.partitions.size();
-                        if (answers.find<PartitionLayers>() == nullptr)
-                          answers.add(PartitionLayers{std::vector<DelayLayers>(count)});
-                        find_layers_of(p, answers, work);
-                      }});
-  }
-  return stages;
-}
-
 void summarise_layers(const Answers& answers, Json& summary, Json& work) {
   const ProblemSpec& spec = answers.context.spec;
   summary["period"] = nearest_double(spec.dynamics.period);
@@ -177,20 +151,13 @@ void summarise_layers(const Answers& answers, Json& summary, Json& work) {
   }
 }
 
+/// Fails if an F is no layer, or if a list of layers has another length.
 void examine_layers(const ProblemSpec& spec, const FieldSource& source) {
   const std::vector<StoredPartition> partitions = read_partition_values(spec, source);
   for (std::size_t p = 0; spec.output.layers && p < partitions.size(); ++p) {
     const std::string path = paths::layers(spec.coordination.partitions[p]) + "/start";
     source.expect_length(path, partitions[p].layer_sizes.size() + 1);
   }
-}
-
-Json layers_json(const AnalysisContext& context, const DelayLayers& layers) {
-  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
-          {"layers", layers.sizes},
-          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
-          {"truncated", layers.truncated},
-          {"best_state", best_state_json(context, layers)}};
 }
 
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info) {
@@ -200,13 +167,6 @@ void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info)
     entry.update(stored_json(partition));
     info["partitions"].push_back(std::move(entry));
   }
-}
-
-void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
-                    const char* member, Json& info) {
-  const std::vector<StoredPartition> partitions = read_partition_values(spec, source, prefix);
-  for (std::size_t p = 0; p < partitions.size(); ++p)
-    info["partitions"][p][member] = stored_json(partitions[p]);
 }
 
 /// Levels of all partitions are kept; projections are those of one partition at a time.
@@ -232,5 +192,58 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
   if (spec.output.layers) need.written += std::min(sizes.cells(), 2 * sizes.lanes()) * sizeof(std::uint32_t);
   return need;
 }
+
+/// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.
+std::vector<Stage> layers_stages(const ProblemSpec& spec) {
+  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
+  std::vector<Stage> stages;
+  for (const std::size_t p : coarsest_first(partitions)) {
+    stages.push_back({"layers " + partitions[p].name, [p](Answers& answers, const StageWork& work) {
+                        const std::size_t count = answers.context.spec.coordination.partitions.size();
+                        if (answers.find<PartitionLayers>() == nullptr)
+                          answers.add(PartitionLayers{std::vector<DelayLayers>(count)});
+                        find_layers_of(p, answers, work);
+                      }});
+  }
+  return stages;
+}
+
+}  // namespace
+
+PartitionActions::PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team)
+    : grouping(*answers.context.engine,
+               input_classes(answers.context.spec, answers.context.abstraction->inputs,
+                             answers.context.spec.coordination.partitions[p]),
+               team),
+      symmetry(
+          answers.context.symmetry(input_classes(answers.context.spec, answers.context.abstraction->inputs,
+                                                 answers.context.spec.coordination.partitions[p]))),
+      projections(answers.get<GoingOn>().controller, grouping, team,
+                  answers.context.equal(symmetry ? &*symmetry : nullptr)) {}
+
+Json layers_json(const AnalysisContext& context, const DelayLayers& layers) {
+  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
+          {"layers", layers.sizes},
+          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
+          {"truncated", layers.truncated},
+          {"best_state", best_state_json(context, layers)}};
+}
+
+void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
+                    const char* member, Json& info) {
+  const std::vector<StoredPartition> partitions = read_partition_values(spec, source, prefix);
+  for (std::size_t p = 0; p < partitions.size(); ++p)
+    info["partitions"][p][member] = stored_json(partitions[p]);
+}
+
+const Answer layers_answer = {.stages = layers_stages,
+                              .memory = layers_memory,
+                              .fields = layer_fields,
+                              .fill = fill_layer_fields,
+                              .summarise = summarise_layers,
+                              .examine = examine_layers,
+                              .tell = tell_layers,
+                              .policies = layer_policies,
+                              .check = check_layers};
 
 }  // namespace coordreq

@@ -4,13 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "answers/answers.hpp"
-#include "answers/field_source.hpp"
+#include "answers/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/projections.hpp"
-#include "answers/memory_need.hpp"
-#include "answers/stage.hpp"
-#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -32,14 +28,6 @@ struct PartitionActions {
   Projections projections;  ///< of canonical rows alone, if there is a symmetry
 };
 
-/// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.
-[[nodiscard]] std::vector<Stage> layers_stages(const ProblemSpec& spec);
-[[nodiscard]] MemoryNeed layers_memory(const EngineSizes& sizes, int threads);
-void summarise_layers(const Answers& answers, Json& summary, Json& work);
-/// Fails if an F is no layer, or if a list of layers has another length.
-void examine_layers(const ProblemSpec& spec, const FieldSource& source);
-void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info);
-
 /// The members of layers in the summary, beside their partition: F, sizes, unbounded cells, whether
 /// `max_delay` cut them, a best state. Together.
 [[nodiscard]] Json layers_json(const AnalysisContext& context, const DelayLayers& layers);
@@ -48,5 +36,12 @@ void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info)
 /// @param member of each partition in `info` @throws ResultsError if an F is no layer
 void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
                     const char* member, Json& info);
+
+extern const Answer layers_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields layer_fields(const ProblemSpec& spec);
+void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+[[nodiscard]] std::vector<AnswerPolicy> layer_policies(const ProblemSpec& spec);
 
 }  // namespace coordreq

@@ -1,22 +1,22 @@
-#include "answers/layers/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <deque>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/layers/check_sizes.hpp"
+#include "answers/step_codes.hpp"
 #include "model/input_class.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kMustBeConnected = -3;
-
 std::int32_t trigger_by_definition(std::int32_t delay, std::int64_t connection_delay) {
-  if (delay < 0 || delay == kForever) return delay;
+  if (delay < 0 || delay == kUnbounded) return delay;
   return delay < connection_delay ? kMustBeConnected : static_cast<std::int32_t>(delay - connection_delay);
 }
 
@@ -98,7 +98,7 @@ class PartitionChecker {
 
   [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell) const {
     bool any = cell.is_over();
-    std::int32_t worst = kForever;
+    std::int32_t worst = kUnbounded;
     const std::int64_t inputs = cell.is_over() ? 0 : context_.inputs->count();
     for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
       if (!is_choice(u)) continue;
@@ -189,6 +189,12 @@ class LayersCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Checks the claims about each partition, straight from the definitions:
+/// - for x in K: delay(x) = 1 + min over u in IND_C(x), y in f(x, u) of delay(y), where cells outside K and
+///   pairs without post, or that `allow` forbids, are worth -1. By induction on the delay this proves
+///   membership in every layer, and that a cell is not in the next;
+/// - triggers from delays, and stored actions from C(x);
+/// - F, whether max_delay stopped the iteration, layer sizes and layer lists against the delays.
 std::unique_ptr<AnswerCheck> check_layers(const CheckContext& context) {
   return std::make_unique<LayersCheck>(context);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "answers/layers/stored_partition.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -24,8 +25,8 @@ std::optional<Layers> layers_of(const ProblemSpec& spec, const PartitionClaims& 
   std::int64_t invariant = 0;
   for (const std::int32_t delay : claims.delay) {
     invariant += delay >= 0 ? 1 : 0;
-    unbounded = unbounded || delay == kForever;
-    if (delay != kForever) longest = std::max(longest, delay);
+    unbounded = unbounded || delay == kUnbounded;
+    if (delay != kUnbounded) longest = std::max(longest, delay);
   }
   const std::int64_t limit = spec.coordination.max_delay.value_or(INT64_MAX);
   if (longest > limit || longest >= static_cast<std::int64_t>(claims.delay.size())) return std::nullopt;
@@ -37,7 +38,7 @@ std::optional<Layers> layers_of(const ProblemSpec& spec, const PartitionClaims& 
 
   std::vector<std::int64_t> leaving(static_cast<std::size_t>(longest + 1), 0);
   for (const std::int32_t delay : claims.delay) {
-    if (delay >= 0 && delay != kForever) ++leaving[static_cast<std::size_t>(delay)];
+    if (delay >= 0 && delay != kUnbounded) ++leaving[static_cast<std::size_t>(delay)];
   }
   Layers layers{.sizes = {invariant}, .fixed_point_index = truncated ? -1 : longest + 1};
   for (std::size_t k = 0; k + (truncated ? 1 : 0) < leaving.size(); ++k) {
@@ -50,7 +51,7 @@ std::optional<Layers> layers_of(const ProblemSpec& spec, const PartitionClaims& 
 void check_lists(const PartitionClaims& claims, const StoredLayers& stored, const Layers& layers,
                  Comparison& comparison) {
   const auto layer_of = [&](std::int32_t delay) {
-    return delay == kForever ? layers.sizes.size() - 1 : static_cast<std::size_t>(delay);
+    return delay == kUnbounded ? layers.sizes.size() - 1 : static_cast<std::size_t>(delay);
   };
   std::vector<std::vector<std::uint64_t>> lists(layers.sizes.size());
   for (std::size_t x = 0; x < claims.delay.size(); ++x) {

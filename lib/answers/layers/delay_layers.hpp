@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "answers/step_codes.hpp"
 #include "base/thread_team.hpp"
 #include "engine/level_map.hpp"
 #include "engine/wave_watch.hpp"
@@ -26,10 +27,6 @@ struct LeavingCounts {
 
 /// The delay layers of one partition, contract "Layers".
 struct DelayLayers {
-  static constexpr std::int32_t kOutsideSafe = -2;
-  static constexpr std::int32_t kOutsideInvariant = -1;
-  static constexpr std::int32_t kUnbounded = INT32_MAX;
-
   /// [cells]: 0 outside K, else delay(x) + 1, the number of layers that hold x; LevelMap::kTop where the
   /// delay is not bounded, or not known to be.
   LevelMap layers_of;

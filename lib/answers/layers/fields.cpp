@@ -13,6 +13,7 @@
 #include "answers/layers/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/trigger_table.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -35,10 +36,10 @@ std::map<std::string, std::string> countdown_meanings(const ProblemSpec& spec) {
 }
 
 void add_steps(Fields& fields, const ProblemSpec& spec) {
-  const FieldFlag outside_safe{DelayLayers::kOutsideSafe, "not_safe"};
-  const FieldFlag outside_invariant{DelayLayers::kOutsideInvariant, "not_invariant"};
+  const FieldFlag outside_safe{kOutsideSafe, "not_safe"};
+  const FieldFlag outside_invariant{kOutsideInvariant, "not_invariant"};
   fields.push_back(steps_field(
-      "delay", spec, DelayLayers::kOutsideSafe,
+      "delay", spec, kOutsideSafe,
       described("largest number of steps without coordination that keeps the system safe") +
           std::vector<FieldAttribute>{flags({outside_safe, outside_invariant, {kLargestValue, "unbounded"}})},
       {.column = "delay",
@@ -51,16 +52,15 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
        .map = {.kind = "delay"}},
       "/fixed_point_index"));
   fields.push_back(
-      steps_field("trigger", spec, TriggerTable::kMustBeConnected,
+      steps_field("trigger", spec, kMustBeConnected,
                   described("steps until the agents must start to connect") +
-                      std::vector<FieldAttribute>{
-                          flags({{TriggerTable::kMustBeConnected, "connection_must_stand_already"},
-                                 outside_safe,
-                                 outside_invariant,
-                                 {kLargestValue, "never"}}),
-                          {"connection_delay", spec.coordination.connection_delay}},
+                      std::vector<FieldAttribute>{flags({{kMustBeConnected, "connection_must_stand_already"},
+                                                         outside_safe,
+                                                         outside_invariant,
+                                                         {kLargestValue, "never"}}),
+                                                  {"connection_delay", spec.coordination.connection_delay}},
                   {.column = "countdown",
-                   .below_zero = TriggerTable::kMustBeConnected,
+                   .below_zero = kMustBeConnected,
                    .asked = {.words = "connect in", .meanings = countdown_meanings(spec)}}));
 }
 
@@ -203,6 +203,8 @@ void fill_sizes(const std::vector<const DelayLayers*>& partitions, const std::st
       owned_array(ElementType::int32, std::move(fixed_points));
 }
 
+/// Delays and triggers of all partitions, sizes of layers, F; on request the layers' cells, and the
+/// admissible actions of each class.
 Fields layer_fields(const ProblemSpec& spec) {
   const std::uint64_t cells = cell_count(spec);
   const std::uint64_t layers = most_layers(spec, cells);

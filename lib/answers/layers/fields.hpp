@@ -21,13 +21,6 @@ inline constexpr char kTrigger[] = "/trigger";
 
 }  // namespace paths
 
-/// Delays and triggers of all partitions, sizes of layers, F; on request the layers' cells, and the
-/// admissible actions of each class.
-[[nodiscard]] Fields layer_fields(const ProblemSpec& spec);
-
-/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
-void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
 /// The fields `PREFIXlayer`, `PREFIXlayer_size`, `PREFIXfixed_point_index`: how many cells layers have,
 /// constant once fixed, and F. @param layer what layers are called: "Z"
 /// @param losses the most layers that can differ from the one before them

@@ -1,4 +1,4 @@
-#include "answers/layers/policy.hpp"
+#include "answers/layers/answer.hpp"
 
 #include "answers/layers/fields.hpp"
 
@@ -13,6 +13,7 @@ class DelayPolicy : public CellPolicy {
 
 }  // namespace
 
+/// Agents who coordinate choose from C(x), silent agents from IND_C(x), for as many steps as the delay.
 std::vector<AnswerPolicy> layer_policies(const ProblemSpec& /*spec*/) {
   return {{.words = "actions",
            .delay = paths::kDelay,

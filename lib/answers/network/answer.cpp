@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/projection_bytes.hpp"
@@ -85,8 +86,7 @@ Json network_json(const AnalysisContext& context, const NetworkSafety& safety) {
   return json;
 }
 
-}  // namespace
-
+/// Adds NetworkSafety, if the spec has a network: "network".
 std::vector<Stage> network_stages(const ProblemSpec& spec) {
   if (!spec.network) return {};
   return {{"network", find_safe_sets}};
@@ -99,6 +99,7 @@ void summarise_network(const Answers& answers, Json& summary, Json& work) {
   work["network"] = work_json(safety->counts);
 }
 
+/// Fails if the numbers of safe cells are not as many as modes.
 void examine_network(const ProblemSpec& spec, const FieldSource& source) {
   if (spec.network && source.counted(paths::kNetworkSafe).size() != spec.network->modes.size())
     source.fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
@@ -137,5 +138,18 @@ MemoryNeed network_memory(const EngineSizes& sizes, int threads) {
   }
   return need;
 }
+
+}  // namespace
+
+const Answer network_answer = {.stages = network_stages,
+                               .memory = network_memory,
+                               .fields = network_fields,
+                               .fill = fill_network_fields,
+                               .summarise = summarise_network,
+                               .examine = examine_network,
+                               .tell = tell_network,
+                               .advise = advise_on_network,
+                               .check = check_network,
+                               .check_memory = network_check_memory};
 
 }  // namespace coordreq

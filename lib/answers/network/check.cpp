@@ -1,4 +1,4 @@
-#include "answers/network/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <deque>
 #include <optional>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/checking/independent_choices.hpp"
 #include "answers/checking/ruled_choices.hpp"
@@ -168,10 +169,22 @@ class NetworkCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Bytes a cell: the target T(q) of each mode.
 double network_check_memory(const ProblemSpec& spec) {
   return spec.network ? static_cast<double>(spec.network->modes.size()) : 0;
 }
 
+/// Checks the claims about single cells in each mode of the network, with values as in check_invariance().
+/// With T(q) the intersection of the claimed W(q') over the modes q' that follow q, for every cell x and mode
+/// q:
+/// - x in W(q) exactly if x in K and every u in IND_C(x) (by rules: A(x), which is not empty) has a post,
+/// inside T(q): W is a fixed point. Whether
+///   it is the largest is not checked;
+/// - `resynthesise`: x in W(q) only if x in K, some allowed u has a post inside T(q), and so has every
+///   mixture of such u, which is allowed too. Whether the iteration of the contract ends there is not
+///   checked. Either way agents are safe from all claimed cells. Also checks the number of cells of each
+///   W(q).
+/// @returns null: the spec has no network
 std::unique_ptr<AnswerCheck> check_network(const CheckContext& context) {
   if (!context.spec->network) return nullptr;
   return std::make_unique<NetworkCheck>(context);

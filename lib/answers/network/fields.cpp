@@ -10,6 +10,7 @@
 
 namespace coordreq {
 
+/// Whether each mode of the network is safe from a cell.
 Fields network_fields(const ProblemSpec& spec) {
   if (!spec.network) return {};
   std::vector<std::string> modes;
@@ -33,6 +34,7 @@ Fields network_fields(const ProblemSpec& spec) {
                      .map = {.kind = "modes"}}}};
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_network_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const network = answers.find<NetworkSafety>();
   if (network == nullptr) return;

@@ -12,10 +12,4 @@ inline constexpr char kNetworkSafe[] = "/network_safe";
 
 }  // namespace paths
 
-/// Whether each mode of the network is safe from a cell.
-[[nodiscard]] Fields network_fields(const ProblemSpec& spec);
-
-/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
-void fill_network_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
 }  // namespace coordreq

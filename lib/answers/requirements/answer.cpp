@@ -5,10 +5,11 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "answers/requirements/fields.hpp"
 #include "answers/requirements/judge_requirements.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
 
@@ -39,8 +40,8 @@ void put_risk(Json& json, const std::string& key, double risk) {
 /// Adds a value of a requirement; INT32_MAX means silence without bound, or a goal that is never reached.
 void put_value(Json& json, const std::string& key, RequirementKind kind, std::int32_t value) {
   if (traits(kind).is_probability) return put_risk(json, key, double{std::bit_cast<float>(value)});
-  const bool is_no_end = kind == RequirementKind::min_silence && value == DelayLayers::kOutsideInvariant;
-  const bool is_never = kind == RequirementKind::max_arrival && value == DelayLayers::kUnbounded;
+  const bool is_no_end = kind == RequirementKind::min_silence && value == kOutsideInvariant;
+  const bool is_never = kind == RequirementKind::max_arrival && value == kUnbounded;
   json[key] = delay_json(value);
   json[key + "_status"] = is_never    ? "goal_cannot_be_forced"
                           : is_no_end ? "not_in_silence_set"
@@ -65,7 +66,7 @@ Json sample_json(const ResultPath& path, std::size_t sample, RequirementKind kin
   json["state"] = state_json(path, sample, spec);
   json["cell"] = path.cell[sample];
   put_value(json, traits(kind).value, kind, path.delay[sample]);
-  json["collision_time"] = time == DelayLayers::kUnbounded ? Json() : Json(time);
+  json["collision_time"] = time == kUnbounded ? Json() : Json(time);
   return json;
 }
 
@@ -112,70 +113,14 @@ std::int64_t proven_steps(const ResultPath& path) {
   return static_cast<std::int64_t>(path.steps()) + (path.end == EscapeEnd::no_silent_action ? 1 : 0);
 }
 
-}  // namespace
-
-Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec) {
-  Json json;
-  json["state"] = state_json(path, 0, spec);
-  json["steps"] = Json::array();
-  for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, kind, spec));
-  json["end"] = end_word(path.end);
-  const bool stays = path.samples() > path.steps();
-  json["end_sample"] = stays ? sample_json(path, path.steps(), kind, spec) : Json();
-  json["left_side"] = side_json(path.left_side, spec);
-  const bool is_followed = path.seen != ResultPath::kNotFollowed;
-  json["proven"] = is_followed ? Json(proven_steps(path)) : Json();
-  json["seen"] = path.seen > 0 ? Json(path.seen) : Json();
-  return json;
-}
-
-Json delay_json(std::int32_t delay) {
-  return delay < 0 || delay == DelayLayers::kUnbounded ? Json() : Json(delay);
-}
-
-const char* delay_word(std::int32_t delay) {
-  if (delay == DelayLayers::kUnbounded) return "unbounded";
-  return delay == kOutsideWinning                  ? "goal_cannot_be_forced"
-         : delay == DelayLayers::kOutsideSafe      ? "not_safe"
-         : delay == DelayLayers::kOutsideInvariant ? "not_invariant"
-                                                   : "steps";
-}
-
-Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
-                      const ProblemSpec& spec) {
-  Json json;
-  json["name"] = result.name;
-  json["holds"] = result.holds;
-  json["kind"] = traits(asked.kind).key;
-  json["partition"] =
-      asked.partition ? Json(spec.coordination.partitions[static_cast<std::size_t>(*asked.partition)].name)
-                      : Json();
-  json["min_delay"] = Json();
-  const bool is_risk = traits(asked.kind).is_probability;
-  if (is_risk) {
-    json[traits(asked.kind).key] = nearest_double(asked.risk);
-    json["per"] = asked.per.empty() ? Json() : Json(asked.per);
-  } else if (asked.kind != RequirementKind::invariant) {
-    json[traits(asked.kind).key] = asked.steps;
-  }
-  json["cells"] = result.cells;
-  json["failing"] = result.failing;
-  if (is_risk) {
-    put_risk(json, traits(asked.kind).worst(), result.risk);
-  } else {
-    put_value(json, traits(asked.kind).worst(), asked.kind, result.least_delay);
-  }
-  json["reaches_outside"] = side_json(result.reached_side, spec);
-  json["counterexample"] = result.holds ? Json() : counterexample_json(result, asked.kind, spec);
-  return json;
-}
-
+/// "regions", if there are requirements: refuses a region that meets no cell.
 std::vector<Stage> requirements_checks(const ProblemSpec& spec) {
   if (spec.requirements.empty()) return {};
   return {{"regions",
            [](Answers& answers, const StageWork& work) { check_regions(answers.context.spec, work.team); }}};
 }
 
+/// Adds RequirementVerdicts, if there are requirements: "requirements".
 std::vector<Stage> requirements_stages(const ProblemSpec& spec) {
   if (spec.requirements.empty()) return {};
   return {{"requirements", [](Answers& answers, const StageWork& work) {
@@ -192,6 +137,7 @@ void summarise_requirements(const Answers& answers, Json& summary, Json& /*work*
         requirement_json(verdicts->requirements[r], spec.requirements[r], spec));
 }
 
+/// Fails if verdicts and counterexamples do not fit together.
 void examine_requirements(const ProblemSpec& spec, const FieldSource& source) {
   static_cast<void>(read_requirement_values(spec, source));
 }
@@ -231,5 +177,74 @@ MemoryNeed requirements_memory(const EngineSizes& sizes, int /*threads*/) {
           .work = 2 * sizes.set(),  // a region, and the table of its condition
           .written = count * (kBytesOfFields + path) + std::min(count * kBytesOfObjects, kMostOfObjects)};
 }
+
+}  // namespace
+
+const char* delay_word(std::int32_t delay) {
+  if (delay == kUnbounded) return "unbounded";
+  return delay == kOutsideWinning     ? "goal_cannot_be_forced"
+         : delay == kOutsideSafe      ? "not_safe"
+         : delay == kOutsideInvariant ? "not_invariant"
+                                      : "steps";
+}
+
+Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec) {
+  Json json;
+  json["state"] = state_json(path, 0, spec);
+  json["steps"] = Json::array();
+  for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, kind, spec));
+  json["end"] = end_word(path.end);
+  const bool stays = path.samples() > path.steps();
+  json["end_sample"] = stays ? sample_json(path, path.steps(), kind, spec) : Json();
+  json["left_side"] = side_json(path.left_side, spec);
+  const bool is_followed = path.seen != ResultPath::kNotFollowed;
+  json["proven"] = is_followed ? Json(proven_steps(path)) : Json();
+  json["seen"] = path.seen > 0 ? Json(path.seen) : Json();
+  return json;
+}
+
+Json delay_json(std::int32_t delay) {
+  return delay < 0 || delay == kUnbounded ? Json() : Json(delay);
+}
+
+Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
+                      const ProblemSpec& spec) {
+  Json json;
+  json["name"] = result.name;
+  json["holds"] = result.holds;
+  json["kind"] = traits(asked.kind).key;
+  json["partition"] =
+      asked.partition ? Json(spec.coordination.partitions[static_cast<std::size_t>(*asked.partition)].name)
+                      : Json();
+  json["min_delay"] = Json();
+  const bool is_risk = traits(asked.kind).is_probability;
+  if (is_risk) {
+    json[traits(asked.kind).key] = nearest_double(asked.risk);
+    json["per"] = asked.per.empty() ? Json() : Json(asked.per);
+  } else if (asked.kind != RequirementKind::invariant) {
+    json[traits(asked.kind).key] = asked.steps;
+  }
+  json["cells"] = result.cells;
+  json["failing"] = result.failing;
+  if (is_risk) {
+    put_risk(json, traits(asked.kind).worst(), result.risk);
+  } else {
+    put_value(json, traits(asked.kind).worst(), asked.kind, result.least_delay);
+  }
+  json["reaches_outside"] = side_json(result.reached_side, spec);
+  json["counterexample"] = result.holds ? Json() : counterexample_json(result, asked.kind, spec);
+  return json;
+}
+
+const Answer requirements_answer = {.checks = requirements_checks,
+                                    .stages = requirements_stages,
+                                    .memory = requirements_memory,
+                                    .fields = requirement_fields,
+                                    .fill = fill_requirement_fields,
+                                    .summarise = summarise_requirements,
+                                    .examine = examine_requirements,
+                                    .tell = tell_requirements,
+                                    .check = check_requirements,
+                                    .check_memory = requirements_check_memory};
 
 }  // namespace coordreq

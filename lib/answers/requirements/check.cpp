@@ -1,4 +1,4 @@
-#include "answers/requirements/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,11 @@
 #include <mutex>
 #include <tuple>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/requirements/check_path.hpp"
 #include "answers/requirements/check_region.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -21,7 +23,7 @@ using DefinedRank =
 /// The rank of a value, the lower the worse: not safe, not invariant, no way to the goal, then delays
 /// ascending, or arrivals descending.
 std::int64_t rank_by_definition(RequirementKind kind, std::int32_t value) {
-  if (value == kNoWayToGoal) return -1;
+  if (value == kOutsideWinning) return -1;
   if (value < 0) return INT64_MIN / 2 + value;  // the claim may be any number
   const bool is_limit = kind == RequirementKind::max_arrival || kind == RequirementKind::max_risk;
   return is_limit ? -std::int64_t{value} : std::int64_t{value};
@@ -32,7 +34,7 @@ struct Bounds {
   std::uint64_t sure = 0, possible = 0;
   std::uint64_t sure_failing = 0, possible_failing = 0;
   std::uint64_t doubted_failing = 0;  ///< not counted, but not shown not to meet the region
-  DefinedRank sure_worst{INT64_MAX, kForever, INT64_MAX};
+  DefinedRank sure_worst{INT64_MAX, kUnbounded, INT64_MAX};
   std::int64_t sure_least = INT64_MAX, possible_least = INT64_MAX;  ///< ranks
 
   void add(const Bounds& other) {
@@ -226,10 +228,15 @@ class RequirementsCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Bytes a cell: whether the cell meets a region.
 double requirements_check_memory(const ProblemSpec& spec) {
   return spec.requirements.empty() ? 0 : 1;
 }
 
+/// Checks the verdicts on requirements: regions by an evaluation of its own, verdicts from the delays in the
+/// file, counterexamples step by step. If it stays open whether a cell meets the region, and the verdict
+/// depends on the cell, the verdict counts as not confirmed. Verdicts are about the whole file, whichever
+/// cells are sampled.
 std::unique_ptr<AnswerCheck> check_requirements(const CheckContext& context) {
   return std::make_unique<RequirementsCheck>(context);
 }

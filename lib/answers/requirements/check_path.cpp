@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -119,7 +120,7 @@ EscapePhase PathChecker::phase_of(std::size_t step) const {
   if (!progress_) return EscapePhase::independent;
   if (asked_.kind == RequirementKind::max_arrival) return EscapePhase::together;
   const std::int32_t arrival = progress_->arrival(cell_.at());
-  if (step == 0 && arrival == kForever) return EscapePhase::together;
+  if (step == 0 && arrival == kUnbounded) return EscapePhase::together;
   const EscapePhase before = step == 0 ? EscapePhase::approaching : path_->phase[step - 1];
   return before == EscapePhase::approaching && arrival == 0 ? EscapePhase::independent : before;
 }
@@ -127,7 +128,7 @@ EscapePhase PathChecker::phase_of(std::size_t step) const {
 void PathChecker::check_together(std::size_t step, std::int64_t u) {
   if (cell_.admitted()[at(u)] == 0) return differs(step, "the joint input is not admissible");
   const std::int32_t arrival = progress_->arrival(cell_.at());
-  const std::int32_t expected = arrival == kForever ? kForever : arrival - 1;
+  const std::int32_t expected = arrival == kUnbounded ? kUnbounded : arrival - 1;
   if (arrival <= 0 || progress_->worst(cell_, u) != expected)
     differs(step, "the joint input does not have the shortest time to the goal");
   if (step + 1 < path_->samples() && progress_->arrival(path_->cell[step + 1]) != expected)
@@ -143,7 +144,7 @@ void PathChecker::check_approaching(std::size_t step, std::int64_t u) {
     return;
   }
   const bool stays = step + 1 < path_->samples();
-  const std::int32_t next = stays ? progress_->arrival(path_->cell[step + 1]) : kForever;
+  const std::int32_t next = stays ? progress_->arrival(path_->cell[step + 1]) : kUnbounded;
   if (next >= 0 && next < progress_->arrival(cell_.at())) differs(step, "no time is lost");
 }
 

@@ -1,5 +1,6 @@
 #include "answers/requirements/escape_result.hpp"
 
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -27,8 +28,7 @@ struct EscapeWriter {
     const bool is_own = share == nullptr || share->owner(cell / grid.row_length()) == share->ranks().rank();
     const std::int64_t own_time = is_own ? asked.collision_time->at(cell) : 0;
     const std::int64_t time = sum_of_all(share, own_time);
-    path.collision_time.push_back(time == LevelMap::kTop ? DelayLayers::kUnbounded
-                                                         : static_cast<std::int32_t>(time));
+    path.collision_time.push_back(time == LevelMap::kTop ? kUnbounded : static_cast<std::int32_t>(time));
     path.delay.push_back(static_cast<std::int32_t>(sum_of_all(share, is_own ? asked.value_of(cell) : 0)));
   }
 

@@ -1,11 +1,12 @@
-#include "answers/requirements/fields.hpp"
 
-#include "answers/field_parts.hpp"
 #include "answers/goal/fields.hpp"
+#include "answers/field_parts.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/forbidden_choices.hpp"
 #include "answers/requirements/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "answers/step_codes.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/sight.hpp"
 
@@ -62,7 +63,7 @@ std::vector<FieldFlag> delay_flags(const ProblemSpec& spec) {
 /// The least value of a delay in a requirement: delays are those of safety, approach delays or arrivals, by
 /// its kind.
 std::int64_t least_delay(const ProblemSpec& spec) {
-  return spec.goal ? kOutsideWinning : DelayLayers::kOutsideSafe;
+  return spec.goal ? kOutsideWinning : kOutsideSafe;
 }
 
 std::vector<FieldFlag> end_flags(const ProblemSpec& spec) {
@@ -181,6 +182,8 @@ void add_path_values(const ResultPath& path, std::size_t requirement, FieldValue
 
 }  // namespace
 
+/// Verdicts, and the counterexamples of those that fail: each in a group of its own, by its position among
+/// the requirements.
 Fields requirement_fields(const ProblemSpec& spec) {
   if (spec.requirements.empty()) return {};
   Fields fields = {name_scale(counterexample_path("requirement"), kSection, names_of(spec.requirements),
@@ -194,6 +197,7 @@ Fields requirement_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields.
 void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const verdicts = answers.find<RequirementVerdicts>();
   if (verdicts == nullptr) return;

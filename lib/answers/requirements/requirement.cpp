@@ -6,6 +6,7 @@
 #include "answers/goal/arrival.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/risk/risk_levels.hpp"
+#include "answers/step_codes.hpp"
 #include "engine/row_operations.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
@@ -52,9 +53,9 @@ void join(Ranks& ranks, Part& part) {
 }  // namespace
 
 std::int32_t delay_of(std::int64_t cell, std::int64_t collision_time, const DelayLayers* layers) {
-  if (collision_time == 0) return DelayLayers::kOutsideSafe;
-  if (collision_time != LevelMap::kTop) return DelayLayers::kOutsideInvariant;
-  if (layers == nullptr) return DelayLayers::kUnbounded;
+  if (collision_time == 0) return kOutsideSafe;
+  if (collision_time != LevelMap::kTop) return kOutsideInvariant;
+  if (layers == nullptr) return kUnbounded;
   const std::int64_t level = layers->layers_of.at(cell);
   return level == LevelMap::kTop ? layers->top_delay() : static_cast<std::int32_t>(level - 1);
 }

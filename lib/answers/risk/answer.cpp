@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/projection_bytes.hpp"
@@ -144,8 +145,7 @@ Json risk_json(const ProblemSpec& spec, const RiskAnswer& answer) {
   return json;
 }
 
-}  // namespace
-
+/// Adds RiskAnswer, if the spec asks for it: "risk".
 std::vector<Stage> risk_stages(const ProblemSpec& spec) {
   if (!spec.risk) return {};
   return {{"risk", find_risks}};
@@ -158,6 +158,7 @@ void summarise_risk(const Answers& answers, Json& summary, Json& work) {
   work["risk"] = work_json(risk->risk.counts);
 }
 
+/// Fails if the rate is no probability.
 void examine_risk(const ProblemSpec& spec, const FieldSource& source) {
   if (!spec.risk) return;
   const double rate = source.number(paths::kRisk, "rate");
@@ -193,5 +194,17 @@ MemoryNeed risk_memory(const EngineSizes& sizes, int threads) {
   }
   return need;
 }
+
+}  // namespace
+
+const Answer risk_answer = {.stages = risk_stages,
+                            .memory = risk_memory,
+                            .fields = risk_fields,
+                            .fill = fill_risk_fields,
+                            .summarise = summarise_risk,
+                            .examine = examine_risk,
+                            .tell = tell_risk,
+                            .check = check_risk,
+                            .check_memory = risk_check_memory};
 
 }  // namespace coordreq

@@ -3,12 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "answers/answers.hpp"
-#include "answers/field_source.hpp"
-#include "answers/memory_need.hpp"
+#include "answers/answer.hpp"
 #include "answers/risk/risk_figures.hpp"
-#include "answers/stage.hpp"
-#include "base/json.hpp"
 #include "spec/coordination_spec.hpp"
 
 namespace coordreq {
@@ -28,12 +24,10 @@ struct RiskAnswer {
   }
 };
 
-/// Adds RiskAnswer, if the spec asks for it: "risk".
-[[nodiscard]] std::vector<Stage> risk_stages(const ProblemSpec& spec);
-[[nodiscard]] MemoryNeed risk_memory(const EngineSizes& sizes, int threads);
-void summarise_risk(const Answers& answers, Json& summary, Json& work);
-/// Fails if the rate is no probability.
-void examine_risk(const ProblemSpec& spec, const FieldSource& source);
-void tell_risk(const ProblemSpec& spec, const FieldSource& source, Json& info);
+extern const Answer risk_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields risk_fields(const ProblemSpec& spec);
+void fill_risk_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

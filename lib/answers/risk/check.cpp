@@ -1,4 +1,4 @@
-#include "answers/risk/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,10 @@
 #include <limits>
 #include <utility>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/independent_choices.hpp"
 #include "answers/checking/ruled_choices.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -143,7 +145,7 @@ class RiskStep {
     if (cell_->is_forbidden(u)) return 1;
     const std::int32_t rank = cell_->least(u, after.rank, kBlocked);
     if (rank == kBlocked) return 1;
-    return rank == kForever ? 0 : std::min(1.0, after.risks[static_cast<std::size_t>(rank)]);
+    return rank == kUnbounded ? 0 : std::min(1.0, after.risks[static_cast<std::size_t>(rank)]);
   }
 
   std::vector<bool> is_least_;  ///< [mode]
@@ -336,11 +338,20 @@ class RiskCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Checks the probability to leave K, with posts and arithmetic of its own (doubles, whose roundings are
+/// allowed for):
+/// - 1 outside K, and for every cell of K and mode T(V) <= V + rate, T being one more step (see find_risk()).
+///   As V is nowhere below V_0, and T is monotone and T(v + c) <= T(v) + c, the risk within any n steps is
+///   then at most V + n rate;
+/// - CheckContext::is_full: V is V_N, computed in N passes over all cells: not below it, and at most 0.1 % +
+///   1e-30 above it.
+/// @returns null: the spec asks for no risk
 std::unique_ptr<AnswerCheck> check_risk(const CheckContext& context) {
   if (!context.spec->risk) return nullptr;
   return std::make_unique<RiskCheck>(context);
 }
 
+/// Bytes a cell: ranks and expected risks, for each mode.
 double risk_check_memory(const ProblemSpec& spec) {
   if (!spec.risk) return 0;
   // For each mode a rank a cell, and at most as many risks; while ranks are found two lists more. For N

@@ -69,6 +69,8 @@ Field drawn_risk_field(const ProblemSpec& spec) {
 
 }  // namespace
 
+/// The probability to leave K from each cell, in each mode of the network; and before the mode of the first
+/// step is drawn.
 Fields risk_fields(const ProblemSpec& spec) {
   if (!spec.risk) return {};
   Fields fields = {risk_field(spec)};
@@ -78,6 +80,7 @@ Fields risk_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_risk_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const risk = answers.find<RiskAnswer>();
   if (risk == nullptr) return;

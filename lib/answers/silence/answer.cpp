@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "answers/checking/all_checks.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
@@ -106,8 +107,8 @@ std::string stage_name(const ProblemSpec& spec, std::size_t p) {
   return all_have_rules(*spec.silence) ? "silence" : "silence " + spec.coordination.partitions[p].name;
 }
 
-}  // namespace
-
+/// Adds Silence, if the spec says what silent agents do: "silence set" if there is `then`, then "silence" or,
+/// if silence depends on the partition, "silence PARTITION" for each.
 std::vector<Stage> silence_stages(const ProblemSpec& spec) {
   if (!spec.silence) return {};
   std::vector<Stage> stages;
@@ -133,12 +134,14 @@ void summarise_silence(const Answers& answers, Json& summary, Json& work) {
   }
 }
 
+/// Fails if an F is no layer.
 void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.silence) return;
   if (spec.silence->has_then()) info["silence_set"] = source.counted(paths::kSilenceSet).front();
   tell_layers_of(spec, source, "/silence_", "silence", info);
 }
 
+/// Warns of cells in which silent agents have no action.
 Warnings advise_on_silence(const Answers& answers) {
   const auto* const silence = answers.find<Silence>();
   if (silence == nullptr) return {};
@@ -186,6 +189,8 @@ MemoryNeed silence_memory(const EngineSizes& sizes, int threads) {
   return need;
 }
 
+}  // namespace
+
 const SilencePartition& silence_of(const Answers& answers, std::size_t p) {
   const std::vector<SilencePartition>& partitions = answers.get<Silence>().partitions;
   return partitions[std::min(p, partitions.size() - 1)];
@@ -195,5 +200,16 @@ const CellSet& silence_set(const Answers& answers) {
   return answers.context.spec.silence->has_then() ? answers.get<Silence>().set
                                                   : answers.get<Invariance>().invariant;
 }
+
+const Answer silence_answer = {.stages = silence_stages,
+                               .memory = silence_memory,
+                               .fields = silence_fields,
+                               .fill = fill_silence_fields,
+                               .summarise = summarise_silence,
+                               .tell = tell_silence,
+                               .advise = advise_on_silence,
+                               .policies = silence_policies,
+                               .check = check_silence,
+                               .check_memory = silence_check_memory};
 
 }  // namespace coordreq

@@ -4,13 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/answers.hpp"
-#include "answers/field_source.hpp"
+#include "answers/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "answers/memory_need.hpp"
-#include "answers/stage.hpp"
-#include "answers/warning.hpp"
-#include "base/json.hpp"
 
 namespace coordreq {
 
@@ -32,19 +27,18 @@ struct Silence {
   std::vector<SilencePartition> partitions;
 };
 
-/// Adds Silence, if the spec says what silent agents do: "silence set" if there is `then`, then "silence" or,
-/// if silence depends on the partition, "silence PARTITION" for each.
-[[nodiscard]] std::vector<Stage> silence_stages(const ProblemSpec& spec);
-[[nodiscard]] MemoryNeed silence_memory(const EngineSizes& sizes, int threads);
-void summarise_silence(const Answers& answers, Json& summary, Json& work);
-/// Fails if an F is no layer.
-void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info);
-/// Warns of cells in which silent agents have no action.
-[[nodiscard]] Warnings advise_on_silence(const Answers& answers);
-
 /// The silence of a partition. @pre unchecked: it has been found
 [[nodiscard]] const SilencePartition& silence_of(const Answers& answers, std::size_t p);
 /// K'. @pre unchecked: K' has been found
 [[nodiscard]] const CellSet& silence_set(const Answers& answers);
+
+extern const Answer silence_answer;
+
+// What its row takes from other files of this folder.
+[[nodiscard]] Fields silence_fields(const ProblemSpec& spec);
+void fill_silence_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+[[nodiscard]] std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec);
+/// The policy of `then`, when silence does not end. @pre unchecked: the spec has `then`
+[[nodiscard]] AnswerPolicy afterwards_policy();
 
 }  // namespace coordreq

@@ -1,4 +1,4 @@
-#include "answers/silence/check.hpp"
+#include "answers/checking/all_checks.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -7,10 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "answers/checking/answer_check.hpp"
 #include "answers/checking/cell_place.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/checking/ruled_choices.hpp"
 #include "answers/layers/check_sizes.hpp"
+#include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -92,7 +94,7 @@ class SilenceChecker : public CellChecker {
   [[nodiscard]] static std::int32_t silence_by_definition(CheckedCell& cell,
                                                           const PartitionOfSilence& partition,
                                                           RuledChoices& actions) {
-    std::int32_t worst = kForever;
+    std::int32_t worst = kUnbounded;
     const bool is_over = cell.is_over();
     const auto choices = is_over ? std::vector<std::int64_t>() : actions.of(cell.number(), cell.admitted());
     for (const std::int64_t u : choices) {
@@ -207,11 +209,20 @@ class SilenceCheck : public AnswerCheck {
 
 }  // namespace
 
+/// Checks how long silence is safe, straight from the definitions:
+/// - for x in K': silence(x) = 1 + min over u in A(x), y in f(x, u) of silence(y), where cells outside K' and
+///   pairs without post, or that `allow` forbids, are worth -1; 0 where A(x) is empty. By induction this is
+///   membership in every layer;
+/// - from each cell of K' `then` leaves some action, and all its actions stay in K'; and K' is the greatest
+///   such subset of S, if all posts are known;
+/// - F, whether max_delay stopped the iteration, and sizes of layers against the silence of the cells.
+/// Null if the spec does not say what silent agents do.
 std::unique_ptr<AnswerCheck> check_silence(const CheckContext& context) {
   if (!context.spec->silence) return nullptr;
   return std::make_unique<SilenceCheck>(context);
 }
 
+/// Bytes a cell that the check keeps.
 double silence_check_memory(const ProblemSpec& spec) {
   if (!spec.silence || !spec.silence->has_then()) return 0;
   return sizeof(std::uint8_t) + 2 * sizeof(std::int64_t);  // the cells of S left, and those still open

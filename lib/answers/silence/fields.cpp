@@ -10,6 +10,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/fields.hpp"
 #include "answers/silence/answer.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -19,11 +20,10 @@ Field silence_field(const ProblemSpec& spec) {
   const bool has_then = spec.silence->has_then();
   const std::string outside = has_then ? "not_in_silence_set" : "not_invariant";
   return steps_field(
-      "silence", spec, DelayLayers::kOutsideSafe,
+      "silence", spec, kOutsideSafe,
       described("largest number of steps that are safe while agents do what the spec tells silent ones") +
-          std::vector<FieldAttribute>{flags({{DelayLayers::kOutsideSafe, "not_safe"},
-                                             {DelayLayers::kOutsideInvariant, outside},
-                                             {kLargestValue, "unbounded"}})},
+          std::vector<FieldAttribute>{flags(
+              {{kOutsideSafe, "not_safe"}, {kOutsideInvariant, outside}, {kLargestValue, "unbounded"}})},
       {.column = "silence",
        .compared = "silence",
        .asked = {.words = "silence",
@@ -37,6 +37,8 @@ Field silence_field(const ProblemSpec& spec) {
 
 }  // namespace
 
+/// Silence of all partitions, sizes of its layers, F, and K' if there is `then`. None if the spec does not
+/// say what silent agents do.
 Fields silence_fields(const ProblemSpec& spec) {
   if (!spec.silence) return {};
   Fields fields = {silence_field(spec)};
@@ -56,6 +58,7 @@ Fields silence_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+/// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.
 void fill_silence_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const auto* const silence = answers.find<Silence>();
   if (silence == nullptr) return;

@@ -1,4 +1,5 @@
-#include "answers/silence/policy.hpp"
+
+#include "answers/silence/answer.hpp"
 
 #include <memory>
 
@@ -27,6 +28,8 @@ class SilencePolicy : public CellPolicy {
 
 }  // namespace
 
+/// Agents who act by rules while they are silent: each class chooses from its A_c(x), at every countdown
+/// (contract, section 9). None if the spec does not say what silent agents do.
 std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
   if (!spec.silence) return {};
   return {{.name = "silence",

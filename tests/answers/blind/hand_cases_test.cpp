@@ -11,6 +11,7 @@
 
 #include "answers/blind/answer.hpp"
 #include "answers/blind/fields.hpp"
+#include "answers/step_codes.hpp"
 #include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
@@ -19,8 +20,6 @@ namespace coordreq {
 namespace {
 
 using Steps = std::vector<std::int32_t>;
-
-constexpr std::int32_t kUnbounded = DelayLayers::kUnbounded;
 
 /// e becomes 1 at a mistake. @param s equation of the state that is the right action, 0 to `last`
 SortedJson make_spec(int last, const char* s, const char* e, const SortedJson& values_of_second) {
@@ -46,7 +45,7 @@ SortedJson order() {
   return make_spec(2, "s", "if(s == 0, if(u1 == 0, 0, 1), if(u1 == 1, if(u2 == s - 1, 0, 1), 1))", {0, 1});
 }
 
-struct Answer {
+struct Expected {
   std::vector<std::int64_t> layers;
   std::int32_t fixed_point_index;
   Steps delay;  ///< where e == 0, by s
@@ -61,7 +60,7 @@ Steps where_safe(const FastAnalysis& fast, const DelayLayers& layers) {
   return steps;
 }
 
-void expect_answer(const SortedJson& json, const Answer& expected) {
+void expect_answer(const SortedJson& json, const Expected& expected) {
   ThreadTeam team(1);
   const ProblemSpec spec = read_spec(json.dump(), "case");
   const FastAnalysis fast(spec, team);

@@ -1,4 +1,4 @@
-#include "answers/blind/policy.hpp"
+#include "answers/blind/answer.hpp"
 
 #include <gtest/gtest.h>
 

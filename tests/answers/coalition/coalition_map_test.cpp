@@ -5,6 +5,7 @@
 #include <string>
 
 #include "answers/agents.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/coordination_spec.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/system_spec.hpp"
@@ -20,7 +21,7 @@ DelayLayers layers(const std::vector<std::int64_t>& delays, bool truncated = fal
   LevelRows<Level> levels(1, static_cast<std::int64_t>(delays.size()), {}, {});
   std::int64_t longest = 0;
   for (std::size_t c = 0; c < delays.size(); ++c) {
-    const bool is_finite = delays[c] != DelayLayers::kUnbounded;
+    const bool is_finite = delays[c] != kUnbounded;
     if (is_finite) longest = std::max(longest, delays[c]);
     levels.change_row(0, [&](Level* row) {
       row[c] = is_finite ? static_cast<Level>(delays[c] + 1) : LevelRows<Level>::kTop;
@@ -37,8 +38,6 @@ std::vector<DelayLayers> several(Layers... layers) {
   (result.push_back(std::move(layers)), ...);
   return result;
 }
-
-constexpr std::int64_t kForever = DelayLayers::kUnbounded;
 
 struct Case {
   std::vector<std::string> partitions;
@@ -103,10 +102,10 @@ using Words = std::vector<std::string>;
 TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
   const Found found(
       {.partitions = {"a+b+c", "a+b|c", "a|b+c", "a|b|c"},
-       .layers = several(layers<std::uint8_t>({kNone, kForever, kForever, kForever, kForever, kForever}),
-                         layers<std::uint16_t>({kNone, kForever, 5, 4, 7, kForever}),
-                         layers<std::uint8_t>({kNone, 9, 2, 4, 5, 5}),
-                         layers<std::uint32_t>({kNone, 5, 0, 4, 4, 3})),
+       .layers = several(
+           layers<std::uint8_t>({kNone, kUnbounded, kUnbounded, kUnbounded, kUnbounded, kUnbounded}),
+           layers<std::uint16_t>({kNone, kUnbounded, 5, 4, 7, kUnbounded}),
+           layers<std::uint8_t>({kNone, 9, 2, 4, 5, 5}), layers<std::uint32_t>({kNone, 5, 0, 4, 4, 3})),
        .horizon = 5});
   EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "a+b+c", "a+b|c", "a+b|c"}));
   // Where a|b+c is as cheap and enough too, neither pair must be together.
@@ -118,7 +117,7 @@ TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
 
 TEST(CoalitionMap, SaysWhereNoListedPartitionIsEnough) {
   const Found found({.partitions = {"a+b|c", "a|b|c"},
-                     .layers = several(layers<std::uint8_t>({kNone, 3, kForever, 2}),
+                     .layers = several(layers<std::uint8_t>({kNone, 3, kUnbounded, 2}),
                                        layers<std::uint8_t>({kNone, 3, 1, 0})),
                      .horizon = 3});
   EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "none"}));
@@ -153,7 +152,7 @@ TEST(CoalitionMap, LinksThatCostMoreMakeOtherPairsCritical) {
 TEST(CoalitionMap, HorizonsAroundTheEndOfEightBits) {
   for (const std::int64_t horizon : {252, 253, 254, 255, 256}) {
     const Found found({.partitions = {"a|b|c"},
-                       .layers = several(layers<std::uint8_t>({252, 253, kForever})),
+                       .layers = several(layers<std::uint8_t>({252, 253, kUnbounded})),
                        .horizon = horizon});
     EXPECT_EQ(found.chosen(),
               (Words{horizon <= 252 ? "a|b|c" : "none", horizon <= 253 ? "a|b|c" : "none", "a|b|c"}));
@@ -163,7 +162,7 @@ TEST(CoalitionMap, HorizonsAroundTheEndOfEightBits) {
 TEST(CoalitionMap, CellsThatMaxDelayCutOffHaveShownThatMuchAndNoMore) {
   // Stopped after 5 steps: sizes |Z_0|, ..., |Z_5|.
   const auto cut = [] {
-    DelayLayers result = layers<std::uint8_t>({4, kForever}, true);
+    DelayLayers result = layers<std::uint8_t>({4, kUnbounded}, true);
     result.sizes.resize(6);
     return result;
   };
@@ -175,7 +174,7 @@ TEST(CoalitionMap, CellsThatMaxDelayCutOffHaveShownThatMuchAndNoMore) {
 
 TEST(CoalitionMap, OneAgentHasNoPairs) {
   const Found found(
-      {.partitions = {"a"}, .layers = several(layers<std::uint8_t>({kForever, kNone})), .agents = 1});
+      {.partitions = {"a"}, .layers = several(layers<std::uint8_t>({kUnbounded, kNone})), .agents = 1});
   EXPECT_EQ(found.chosen(), (Words{"a", "-"}));
   EXPECT_TRUE(found.map().pairs.empty());
 }

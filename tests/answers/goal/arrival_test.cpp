@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "answers/goal/answer.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 
@@ -36,7 +37,7 @@ TEST(Arrival, IsNeverWhereNobodyCanComeNearer) {
   ThreadTeam team(1);
   const FastAnalysis fast(walk(9, 3), team);
   const Goal& goal = fast.answers->get<Goal>();
-  for (int x = 0; x <= 9; ++x) EXPECT_EQ(arrival_at(goal.nearness, x), x <= 3 ? x : kNeverArrives);
+  for (int x = 0; x <= 9; ++x) EXPECT_EQ(arrival_at(goal.nearness, x), x <= 3 ? x : kUnbounded);
   EXPECT_EQ(winning_cells(goal.nearness, team).count(), 4);
   EXPECT_EQ(longest_arrival(goal.nearness, team), 3);
 }

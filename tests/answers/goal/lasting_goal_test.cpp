@@ -12,6 +12,7 @@
 #include "answers/goal/arrival.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/invariance/safe_set.hpp"
+#include "answers/step_codes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/members.hpp"
@@ -22,9 +23,6 @@ namespace {
 
 using Steps = std::vector<std::int32_t>;
 using Sizes = std::vector<std::int64_t>;
-
-constexpr std::int32_t kNever = INT32_MAX;      // arrival that cannot be forced
-constexpr std::int32_t kUnbounded = INT32_MAX;  // approach delay
 
 /// A state p of 0, ..., last, two agents with an input each, u and v.
 struct Game {
@@ -103,7 +101,7 @@ TEST(LastingGoals, OnALineAreLeftAndVisitedAgain) {
 
 TEST(LastingGoals, ThatCannotBeKeptCanBeVisited) {
   const PlainGoal stay = found(line("stay", {-1, 1}));
-  EXPECT_EQ(stay.arrival, Steps(5, kNever));
+  EXPECT_EQ(stay.arrival, Steps(5, kUnbounded));
   EXPECT_EQ(stay.partitions[0].delay, Steps(5, kOutsideWinning));
   EXPECT_EQ(stay.partitions[0].sizes, Sizes({0}));
   const PlainGoal back = found(line("return", {-1, 1}));
@@ -202,12 +200,12 @@ TEST(LastingGoals, OfAGivenControllerAreWhatItDoesInAnyCase) {
                 {{"synthesis", "given"},
                  {"allow", "(p < 3 and u >= 0) or (p == 3 and u == 0) or (p == 4 and u == -1)"}}}};
   const PlainGoal back = found(game);
-  EXPECT_EQ(back.arrival, Steps({kNever, kNever, kNever, 0, 1}));
+  EXPECT_EQ(back.arrival, Steps({kUnbounded, kUnbounded, kUnbounded, 0, 1}));
   EXPECT_EQ(back.partitions[0].sizes, Sizes({2}));
   EXPECT_EQ(back.longest_return, 1);
   EXPECT_EQ(back.longest_gap, 1);
   game.then = "stay";
-  EXPECT_EQ(found(game).arrival, Steps({kNever, kNever, kNever, 0, 1}));
+  EXPECT_EQ(found(game).arrival, Steps({kUnbounded, kUnbounded, kUnbounded, 0, 1}));
   game.then = "return";
   game.more["controller"]["allow"] = "(p < 3 and u == 1) or (p == 3 and u != 0) or (p == 4 and u == -1)";
   const PlainGoal forward = found(game);
@@ -224,7 +222,7 @@ TEST(LastingGoals, AreNowhereIfTheWorldCanLeaveThemForGood) {
                     .then = then,
                     .disturbances = {{{"name", "d"}, {"lower", 0}, {"upper", 1}}}};
     const PlainGoal trap = found(game);
-    EXPECT_EQ(trap.arrival, Steps({kNever, kNever})) << then;
+    EXPECT_EQ(trap.arrival, Steps({kUnbounded, kUnbounded})) << then;
     EXPECT_EQ(trap.partitions[0].sizes, Sizes({0})) << then;
     EXPECT_FALSE(trap.longest_return.has_value()) << then;
   }

@@ -1,4 +1,5 @@
 #include "answers/layers/trigger_table.hpp"
+#include "answers/step_codes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,18 +16,18 @@ TEST(TriggerTable, CountsDownToTheStartOfConnecting) {
 }
 
 TEST(TriggerTable, TooLateMeansAConnectionMustStand) {
-  EXPECT_EQ(trigger_of(2, 3), TriggerTable::kMustBeConnected);
-  EXPECT_EQ(trigger_of(0, 1), TriggerTable::kMustBeConnected);
-  EXPECT_EQ(trigger_of(7, std::int64_t{1} << 40), TriggerTable::kMustBeConnected);
+  EXPECT_EQ(trigger_of(2, 3), kMustBeConnected);
+  EXPECT_EQ(trigger_of(0, 1), kMustBeConnected);
+  EXPECT_EQ(trigger_of(7, std::int64_t{1} << 40), kMustBeConnected);
 }
 
 TEST(TriggerTable, UnboundedCellsNeverNeedTo) {
-  EXPECT_EQ(trigger_of(DelayLayers::kUnbounded, 1000), TriggerTable::kNever);
+  EXPECT_EQ(trigger_of(kUnbounded, 1000), kUnbounded);
 }
 
 TEST(TriggerTable, CellsOutsideSAndKStayMarked) {
-  EXPECT_EQ(trigger_of(DelayLayers::kOutsideSafe, 2), -2);
-  EXPECT_EQ(trigger_of(DelayLayers::kOutsideInvariant, 2), -1);
+  EXPECT_EQ(trigger_of(kOutsideSafe, 2), -2);
+  EXPECT_EQ(trigger_of(kOutsideInvariant, 2), -1);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "answers/silence/answer.hpp"
+#include "answers/step_codes.hpp"
 #include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using Silences = std::vector<std::int32_t>;
 
-constexpr std::int32_t kForGood = DelayLayers::kUnbounded;
+constexpr std::int32_t kForGood = kUnbounded;
 
 /// x and y in 0, ..., 4, of which a moves the one and b the other; both have to stay.
 SortedJson two_points(const SortedJson& silence) {

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "answers/step_codes.hpp"
+
 namespace {
 
 void analyze(const coordreq::ProblemSpec& spec, const std::string& results) {
@@ -32,7 +34,7 @@ void ask(const std::string& path, const std::string& state) {
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
     const std::int32_t delay = answer.value("/delay", p);
     std::cout << state << ", " << results.partitions()[p].name << ": ";
-    if (delay == coordreq::ResultsReader::kNever) {
+    if (delay == coordreq::kUnbounded) {
       std::cout << "any number of steps of silence\n";
     } else {
       std::cout << delay << " steps of silence\n";
