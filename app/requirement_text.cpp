@@ -76,14 +76,47 @@ std::vector<std::string> story_row(const Json& sample, const std::string& key, c
   return row;
 }
 
-std::string end_text(const Json& story) {
+/// What requirements about a goal say in words; of a goal to stay at, and to return to, other ones.
+struct GoalWords {
+  std::string claim, failing, never, arrived, cannot, lost;
+};
+GoalWords goal_words(GoalThen then) {
+  if (then == GoalThen::stay) {
+    return {.claim = "outside the goal for at most {steps}",
+            .failing = "may be outside the goal for {steps}",
+            .never = "the state may never stay in the goal",
+            .arrived = "the state can stay in the goal, after too many samples outside",
+            .cannot = "cannot be made to stay in the goal",
+            .lost = "the state has made no progress"};
+  }
+  if (then == GoalThen::come_back) {
+    return {.claim = "at the next visit of the goal after at most {steps}",
+            .failing = "takes {steps} to the next visit of the goal",
+            .never = "the goal may never be visited again",
+            .arrived = "the goal is visited too late",
+            .cannot = "cannot be made to visit the goal again and again",
+            .lost = "the state has made no progress"};
+  }
+  const RequirementTraits& usual = requirement_traits("max_arrival");
+  return {.claim = usual.claim,
+          .failing = usual.failing,
+          .never = "the goal may never be reached",
+          .arrived = "the goal is reached too late",
+          .cannot = "cannot be made to reach the goal",
+          .lost = "the state is not nearer to the goal"};
+}
+
+std::string end_text(const Json& story, const ProblemSpec& spec) {
   const std::string end = text_of(story["end"]);
+  const GoalWords words = goal_words(spec.goal_then);
   if (end == "outside_safe_set") return "the state is no longer safe";
   if (end == "left_domain") return "the state leaves the domain, " + side_text(story["left_side"]);
   if (end == "unsafe_between_samples") return "the motion to the next sample is not safe";
-  if (end == "arrived") return "the goal is reached too late";
-  if (end == "never_arrives") return "the state repeats: the goal may never be reached";
-  if (end == "time_lost") return "the state is not nearer to the goal";
+  if (end == "arrived") return words.arrived;
+  if (end == "never_arrives")
+    return (story["end_sample"].is_null() ? "the state may have left the domain: " : "the state repeats: ") +
+           words.never;
+  if (end == "time_lost") return words.lost;
   if (end == "not_allowed") return "their joint input is one that 'allow' forbids";
   if (end == "no_common_action")
     return "some class has no action that suits all cells that look the same to it";
@@ -98,7 +131,7 @@ std::vector<std::string> silent_sentences(const Json& entry, const ProblemSpec& 
   std::map<std::string, std::int64_t> count;
   for (const Json& step : story["steps"]) ++count[text_of(step["action"])];
   const std::int64_t later = count["afterwards"] + count["evasive"];
-  const std::string end = end_text(story);
+  const std::string end = end_text(story, spec);
   if (later == 0)
     return {fmt::format("The agents follow the communication-loss rule, and after {} {}.",
                         steps_text(count["silent"], spec), end)};
@@ -152,10 +185,12 @@ std::string worst_text(const Json& kind, const Json& value, const Json& status, 
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
   if (status == "not_in_silence_set") return "is not safe with the fallback rule";
-  if (status == "goal_cannot_be_forced") return "cannot be made to reach the goal";
+  if (status == "goal_cannot_be_forced") return goal_words(spec.goal_then).cannot;
   const RequirementTraits& traits = requirement_traits(kind.get<std::string>());
   const bool is_risk = traits.is_probability;
-  return fmt::format(fmt::runtime(traits.failing),
+  const bool is_arrival = traits.kind == RequirementKind::max_arrival;
+  const std::string text = is_arrival ? goal_words(spec.goal_then).failing : traits.failing;
+  return fmt::format(fmt::runtime(text),
                      fmt::arg("steps", is_risk ? "" : steps_text(value.get<std::int64_t>(), spec)),
                      fmt::arg("risk", is_risk ? probability_text(value) : ""));
 }
@@ -183,7 +218,9 @@ std::string claim_text(const Json& entry, const ProblemSpec& spec) {
                        fmt::arg("risk", fmt::format("{:g}{}", entry[kind.key].get<double>(), per)));
   }
   const std::string steps = entry.contains(kind.key) ? steps_text(number_of(entry[kind.key]), spec) : "";
-  return fmt::format(fmt::runtime(kind.claim), fmt::arg("steps", steps),
+  const bool is_arrival = kind.kind == RequirementKind::max_arrival;
+  const std::string text = is_arrival ? goal_words(spec.goal_then).claim : kind.claim;
+  return fmt::format(fmt::runtime(text), fmt::arg("steps", steps),
                      fmt::arg("partition", entry["partition"].is_null() ? "" : text_of(entry["partition"])));
 }
 
@@ -277,7 +314,7 @@ std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spe
   };
   if (count("together") > 0)
     return {fmt::format("All agents coordinate on the shortest path, and after {} {}.",
-                        steps_text(count("together"), spec), end_text(story))};
+                        steps_text(count("together"), spec), end_text(story, spec))};
   if (requirement_traits(entry["kind"].get<std::string>()).kind == RequirementKind::min_silence)
     return silent_sentences(entry, spec);
   const std::int64_t alone = count("independent") + count("approaching");
@@ -288,17 +325,18 @@ std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spe
         fmt::format("Each {} independently takes permitted actions, and after {}",
                     is_all_alone(entry, spec) ? "agent" : "class of agents", steps_text(alone, spec));
     if (evasive == 0 && story["end"] != "no_allowed_action")
-      return {fmt::format("{} {}.", text, end_text(story))};
+      return {fmt::format("{} {}.", text, end_text(story, spec))};
     sentences.push_back(text + " it is too late.");
   }
   if (evasive == 0) {
-    sentences.push_back(fmt::format("Then {}.", end_text(story)));
+    sentences.push_back(fmt::format("Then {}.", end_text(story, spec)));
     return sentences;
   }
   const char* const whatever = spec.controller.synthesis == Synthesis::maximal
                                    ? "Even if all agents then coordinate"
                                    : "With inputs that the controller may then choose";
-  sentences.push_back(fmt::format("{}, after {} {}.", whatever, steps_text(evasive, spec), end_text(story)));
+  sentences.push_back(
+      fmt::format("{}, after {} {}.", whatever, steps_text(evasive, spec), end_text(story, spec)));
   return sentences;
 }
 

@@ -88,13 +88,6 @@ void set_limit(const RequireOptions& options, const ResultsReader& results, Tole
         fmt::format("the results have no {}, expected those of a spec with the key '{}'", path, kind.needs),
         limit.name);
   }
-  const bool is_of_goal =
-      limit.kind == RequirementKind::max_arrival || limit.kind == RequirementKind::min_approach_delay;
-  if (is_of_goal && results.spec().is_goal_lasting()) {
-    throw UsageError(fmt::format("'{}' with a goal of \"then\": \"{}\" is not supported yet", kind.key,
-                                 goal_then_name(results.spec().goal_then)),
-                     limit.name);
-  }
   if (kind.is_probability) {
     question.risk = risk_of(text, limit.name);
   } else {

@@ -110,15 +110,6 @@ void check_limited_sight(const Node& asked, const std::string& key, std::size_t 
       asked.pointer());
 }
 
-/// Counterexamples know only goals that are reached once.
-void check_goal_of(const Node& root, const Node& asked, const std::string& key) {
-  if (!root["goal"].is_object()) return;
-  const std::string& then = root["goal"]["then"].text();
-  if (then != goal_then_name(GoalThen::stay) && then != goal_then_name(GoalThen::come_back)) return;
-  throw SpecError(fmt::format("'{}' with a goal of \"then\": \"{}\" is not supported yet", key, then),
-                  asked.pointer());
-}
-
 /// An analysis that stops before the steps asked for could not tell whether the requirement holds.
 void check_decidable(const Node& asked, const RequirementSpec& requirement,
                      const CoordinationSpec& coordination) {
@@ -146,7 +137,6 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
     throw SpecError(fmt::format("'{}' is for a spec with the key '{}'", key, kind.needs),
                     object[key].pointer());
   }
-  if (kind.needs == "goal") check_goal_of(root, object[key], key);
   if (kind.is_probability) read_risk_limit(scope, root, object, risk, period, requirement);
   if (!requirement.is_of_partition() && object.has("partition")) {
     throw SpecError(fmt::format("'{}' is about all partitions, found 'partition' too", key),

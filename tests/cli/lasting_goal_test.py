@@ -118,15 +118,76 @@ class Cases(Case):
             self.assertLessEqual(trace["longest_gap"], 2)
         self.assert_fails(2, "runs do not end in a goal to stay at or to return to (--until)", "simulate", "r.h5", "--start", "random", "--steps", "3", "--until", "goal")
 
-    def test_what_is_not_known_is_refused(self):
-        limit = [{"name": "r", "where": "true", "max_arrival": 3}]
-        self.write("spec.json", {**line("stay"), "requirements": limit})
-        message = '\'max_arrival\' with a goal of "then": "stay" is not supported yet (/requirements/0/max_arrival)'
-        self.assert_fails(3, message, "analyze", "spec.json", "-o", "r.h5")
+    def story(self, problem, where, **limit):
+        """The counterexample of a requirement: its cells, how it ends, and the text of the analysis."""
+        self.write("spec.json", {**problem, "requirements": [{"name": "r", "where": where, **limit}]})
+        result = self.run_program("analyze", "spec.json", "-o", "r.h5", "--json", "--quiet", "--force")
+        self.assertEqual(result.returncode, 1, result.stderr.decode())
+        (requirement,) = json.loads(result.stdout)["requirements"]
+        text = self.run_program("analyze", "spec.json", "-o", "r.h5", "--force").stdout.decode()
+        self.assertIn("holds", self.text_of("verify", "r.h5", "--full"))
+        story = requirement["counterexample"]
+        samples = story["steps"] + ([story["end_sample"]] if story["end_sample"] else [])
+        return [sample["cell"] for sample in samples], story["end"], text
+
+    def test_limits_of_arrival(self):
+        for then in ("stay", "return"):
+            self.write("spec.json", {**line(then), "requirements": [{"name": "r", "where": "0 <= p <= 4", "max_arrival": 3}]})
+            result = self.run_program("analyze", "spec.json", "-o", "r.h5")
+            self.assertEqual(result.returncode, 0, result.stderr.decode())
+        cells, end, text = self.story(line("stay"), "0 <= p <= 4", max_arrival=2)
+        self.assertEqual((cells, end), ([0, 1, 2, 3], "arrived"))
+        self.assertIn("requirement r: outside the goal for at most 2 steps (2 s)", text)
+        self.assertIn("it may be outside the goal for 3 steps (3 s)", text)
+        cells, end, text = self.story(line("return"), "0 <= p <= 4", max_arrival=2)
+        self.assertEqual((cells, end), ([0, 1, 2, 3], "arrived"))
+        self.assertIn("at the next visit of the goal after at most 2 steps (2 s)", text)
+
+    def test_the_world_shows_what_it_can_force(self):
+        # It could wait in 0 for ever, and would show nothing.
+        cells, end, _ = self.story(WAITING, "0 <= p <= 2", max_arrival=0)
+        self.assertEqual((cells, end), ([0, 1, 2], "arrived"))
+        trap = {**WAITING, "dynamics": {**WAITING["dynamics"], "equations": {"p": "if(p < 0.5, d, 1)"}}}
+        trap["states"] = [{**WAITING["states"][0], "upper": 1}]
+        for then, words in (("stay", "the state may never stay in the goal"), ("return", "the goal may never be visited again")):
+            trap["goal"] = {"where": "p == 0", "then": then}
+            cells, end, text = self.story(trap, "p == 0", max_arrival=5)
+            self.assertEqual((cells, end), ([0, 1, 1], "never_arrives"))
+            self.assertIn(f"the state repeats: {words}", text)
+        # A run that waits in the goal shows nothing, for either of them.
+        for then in ("stay", "return"):
+            trap["goal"] = {"where": "p == 0", "then": then}
+            self.story(trap, "p == 0", max_arrival=5)
+            with h5py.File(self.folder / "r.h5", "r+") as file:
+                file["counterexample/0/cell"][...] = 0
+                file["counterexample/0/state"][...] = 0
+                file["counterexample/0/input"][...] = file["counterexample/0/input"][0]
+            result = self.run_program("verify", "r.h5")
+            self.assertEqual(result.returncode, 1, result.stdout.decode())
+            self.assertIn(b"are in the goal" if then == "stay" else b"visited again", result.stdout)
+
+    def test_silence_that_fails_the_task(self):
+        # Alone in 2 agents may miss each other, which leads out of the goal; from 3 that takes one step more.
+        cells, end, text = self.story(meeting("stay"), "p == 3", min_approach_delay=2)
+        self.assertEqual((cells, end), ([3, 2, 1], "time_lost"))
+        self.assertIn("after 2 steps (2 s) the state has made no progress", text)
+
+    def test_which_states_satisfy_a_limit(self):
+        self.results(line("stay"))
+        found = json.loads(self.text_of("require", "r.h5", "--arrival", "1", "--over", "p", "--json"))
+        self.assertEqual(found["intervals"], [[2, 4]])
         self.results(line("return"))
-        result = self.run_program("require", "r.h5", "--arrival", "3", "--over", "p")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn(b'with a goal of "then": "return" is not supported yet', result.stderr)
+        found = json.loads(self.text_of("require", "r.h5", "--arrival", "2", "--over", "p", "--json"))
+        self.assertEqual(found["intervals"], [[1, 4]])
+        self.results(meeting("stay"))
+        found = json.loads(self.text_of("require", "r.h5", "--approach", "1", "--over", "p", "--json"))
+        self.assertEqual(len(found["intervals"]), 2)  # 0 and 1, and 3
+
+    def test_explain_tells_of_safety_beside_such_a_goal(self):
+        self.results(meeting("return"))
+        self.assertIn("unbounded", self.text_of("explain", "r.h5", "--at", "p=1"))
+
+    def test_what_is_not_known_is_refused(self):
         self.write("spec.json", {**line("stay"), "goal": {"where": "p == 3", "then": "visit"}})
         self.assert_fails(3, "expected 'safe', 'over', 'stay' or 'return', found 'visit' (/goal/then)", "analyze", "spec.json")
 

@@ -113,8 +113,9 @@ Json draw_questions() {
   const std::string first = spec["states"][0]["name"];
   if (draw(0, 1) == 0) {
     const std::string goal = first + (draw(0, 1) == 0 ? " <= " : " >= ") + std::to_string(draw(0, 5)) + ".5";
-    const bool is_end = draw(0, 1) == 0;
-    spec["goal"] = is_end ? Json{{"where", goal}, {"then", "over"}} : Json(goal);
+    const std::string then = *rc::gen::element<std::string>("safe", "over", "over", "stay", "return");
+    const bool is_end = then == "over";
+    spec["goal"] = Json{{"where", goal}, {"then", then}};
     spec["requirements"].push_back({{"name", "soon"}, {"where", "true"}, {"max_arrival", draw(0, 3)}});
     if (!is_end || draw(0, 1) == 0) return spec;
   }

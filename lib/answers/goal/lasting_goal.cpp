@@ -1,13 +1,13 @@
 #include "answers/goal/lasting_goal.hpp"
 
 #include <algorithm>
-#include <deque>
 #include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "answers/goal/arrival.hpp"
+#include "answers/goal/best_steps.hpp"
 #include "answers/invariance/joint_actions.hpp"
 #include "engine/find_levels.hpp"
 #include "engine/level_messages.hpp"
@@ -164,29 +164,6 @@ class StayFinder {
   LevelMap levels_;
 };
 
-/// Calls `body(place, posts, best, worker)` for every own row with such cells: what its cells can reach at
-/// best.
-template <class Level, class Body>
-void for_each_best(const LastingProblem& problem, const ActionGrouping& grouping,
-                   const LevelRows<Level>& levels, const CellSet& cells, ThreadTeam& team, const Body& body) {
-  const RowEngine& engine = problem.progress->engine();
-  const auto best = make_joint_actions<Level>(grouping, problem.synthesis, true, team.size());
-  std::deque<PostReader<Level>> readers;
-  for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
-  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-  for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
-    PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
-    std::vector<Level> old(posts.lanes(), 0), next(posts.lanes(), 0);
-    for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-      if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
-      if (!any_set(cells.row(place.row))) continue;
-      std::copy_n(levels.row(place.row), engine.row_length(), old.begin());
-      best->next_levels(place, posts, old.data(), next.data(), worker);
-      body(place, posts, next.data(), worker);
-    }
-  });
-}
-
 /// The cells of a set from which some action (`given`: every one) keeps in W.
 CellSet keeping_cells(const LastingProblem& problem, const ActionGrouping& grouping, const LevelMap& nearness,
                       const CellSet& cells, ThreadTeam& team) {
@@ -261,7 +238,7 @@ LevelMap find_stay_nearness(const LastingProblem& problem, const WaveWatch& watc
 }
 
 LevelMap find_return_nearness(const LastingProblem& problem, const WaveWatch& watch, ThreadTeam& team,
-                              WaveCounts& counts) {
+                              WaveCounts& counts, const AfterRound& after_round) {
   const RowEngine& engine = problem.progress->engine();
   const RowShare* const share = engine.share();
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
@@ -274,6 +251,7 @@ LevelMap find_return_nearness(const LastingProblem& problem, const WaveWatch& wa
     round.resumed = &start;
     nearness = find_nearness(engine, problem.progress->hull(), *problem.invariant, visits, problem.synthesis,
                              round, team, counts);
+    if (after_round) after_round(nearness);
     visits = keeping_cells(problem, grouping, nearness, visits, team);
     before = std::exchange(count, count_of_all(visits, share));
   }

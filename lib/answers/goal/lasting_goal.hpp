@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "answers/goal/progress_engine.hpp"
@@ -41,8 +42,11 @@ struct LastingProblem {
 
 /// Nearness of a goal to return to: 1 also in cells of G outside W. Y, at first K, shrinks to the cells that
 /// can force a cell of G where some action leads into Y (Emerson and Lei); W is what is left.
+/// @param after_round called with the nearness after each round: 1 in the cells of K outside the next Y
+using AfterRound = std::function<void(const LevelMap& nearness)>;
 [[nodiscard]] LevelMap find_return_nearness(const LastingProblem& problem, const WaveWatch& watch,
-                                            ThreadTeam& team, WaveCounts& counts);
+                                            ThreadTeam& team, WaveCounts& counts,
+                                            const AfterRound& after_round = {});
 
 /// The longest time between two visits of a goal to return to; nothing if there are none.
 struct LongestReturns {

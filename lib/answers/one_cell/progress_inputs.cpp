@@ -46,8 +46,10 @@ std::int32_t ProgressInputs::worst(std::int64_t x, std::int64_t u) {
 std::int32_t ProgressInputs::limit(std::int64_t x, const std::vector<std::int64_t>& admissible) {
   if (spec_.goal_then == GoalThen::stay) {
     // What is lost in x itself follows from the equation of arrival: the best step loses no more.
-    std::int32_t best = INT32_MAX;
-    for (const std::int64_t u : admissible) best = std::min(best, worst(x, u));
+    const bool is_given = spec_.controller.synthesis == Synthesis::given;
+    std::int32_t best = is_given ? 0 : INT32_MAX;
+    for (const std::int64_t u : admissible)
+      best = is_given ? std::max(best, worst(x, u)) : std::min(best, worst(x, u));
     return best;
   }
   if (spec_.goal_then == GoalThen::come_back && arrival_(x) == 0) return INT32_MAX - 1;

@@ -27,11 +27,12 @@ class ProgressInputs {
   [[nodiscard]] std::int32_t worst(std::int64_t x, std::int64_t u);
   /// P(x) of C(x), ascending, x in W \ G; of a lasting goal x in W.
   [[nodiscard]] std::vector<std::int64_t> of(std::int64_t x, const std::vector<std::int64_t>& admissible);
+  /// The greatest arrival after a step that makes progress. @pre unchecked: as of()
+  [[nodiscard]] std::int32_t limit(std::int64_t x, const std::vector<std::int64_t>& admissible);
+  /// Whether f(x,u) may be T by way of a `safe` side. @pre unchecked: worst() was called for x last
+  [[nodiscard]] bool leaves_through_safe_side(std::int64_t u) const;
 
  private:
-  /// The greatest arrival after a step of P.
-  [[nodiscard]] std::int32_t limit(std::int64_t x, const std::vector<std::int64_t>& admissible);
-  [[nodiscard]] bool leaves_through_safe_side(std::int64_t u) const;
   [[nodiscard]] std::int32_t worst_in(const std::vector<IndexRange>& box);
 
   const ProblemSpec& spec_;

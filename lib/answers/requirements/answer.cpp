@@ -173,8 +173,12 @@ MemoryNeed requirements_memory(const EngineSizes& sizes, int /*threads*/) {
   if (count == 0) return {};
   const auto numbers = static_cast<double>(spec.states.size() + spec.inputs.size() + 3);
   const double path = kUsualSamples * numbers * sizeof(double);
+  // find_showing_order(): levels a second time, the numbers of rounds, and sets.
+  const double order = spec.is_goal_lasting() ? sizes.levels() + sizes.cells() * sizeof(std::uint32_t) +
+                                                    3 * sizes.set() + sizes.wave(1)
+                                              : 0;
   return {.kept = count * (sizeof(ResultRequirement) + path),
-          .work = 2 * sizes.set(),  // a region, and the table of its condition
+          .work = 2 * sizes.set() + order,  // a region, and the table of its condition
           .written = count * (kBytesOfFields + path) + std::min(count * kBytesOfObjects, kMostOfObjects)};
 }
 

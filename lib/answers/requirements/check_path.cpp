@@ -19,6 +19,10 @@ PathChecker::PathChecker(const CheckContext& context, const RequirementSpec& ask
       cell_(context) {
   if (asked.kind == RequirementKind::max_arrival || asked.kind == RequirementKind::min_approach_delay)
     progress_.emplace(context);
+  if (progress_ && context.spec->is_goal_lasting()) {
+    goal_memory_.emplace(*context.spec->goal, *context.grid);
+    goal_.emplace(*context.spec, *context.spec->goal, *context.grid, *goal_memory_);
+  }
   if (!asked.partition) return;
   partition_ = static_cast<std::size_t>(*asked.partition);
   for (const auto& agents : context.spec->coordination.partitions[*partition_].classes)
@@ -122,13 +126,18 @@ EscapePhase PathChecker::phase_of(std::size_t step) const {
   const std::int32_t arrival = progress_->arrival(cell_.at());
   if (step == 0 && arrival == kUnbounded) return EscapePhase::together;
   const EscapePhase before = step == 0 ? EscapePhase::approaching : path_->phase[step - 1];
-  return before == EscapePhase::approaching && arrival == 0 ? EscapePhase::independent : before;
+  const bool is_over = before == EscapePhase::approaching && arrival == 0 && !goal_;
+  return is_over ? EscapePhase::independent : before;
 }
 
 void PathChecker::check_together(std::size_t step, std::int64_t u) {
   if (cell_.admitted()[at(u)] == 0) return differs(step, "the joint input is not admissible");
   const std::int32_t arrival = progress_->arrival(cell_.at());
+<<<<<<< Updated upstream
   const std::int32_t expected = arrival == kUnbounded ? kUnbounded : arrival - 1;
+=======
+  const std::int32_t expected = arrival == kForever ? kForever : goal_ ? progress_->best(cell_) : arrival - 1;
+>>>>>>> Stashed changes
   if (arrival <= 0 || progress_->worst(cell_, u) != expected)
     differs(step, "the joint input does not have the shortest time to the goal");
   if (step + 1 < path_->samples() && progress_->arrival(path_->cell[step + 1]) != expected)
@@ -144,8 +153,13 @@ void PathChecker::check_approaching(std::size_t step, std::int64_t u) {
     return;
   }
   const bool stays = step + 1 < path_->samples();
+<<<<<<< Updated upstream
   const std::int32_t next = stays ? progress_->arrival(path_->cell[step + 1]) : kUnbounded;
   if (next >= 0 && next < progress_->arrival(cell_.at())) differs(step, "no time is lost");
+=======
+  const std::int32_t next = stays ? progress_->arrival(path_->cell[step + 1]) : kForever;
+  if (next >= 0 && next <= progress_->limit(cell_)) differs(step, "no time is lost");
+>>>>>>> Stashed changes
 }
 
 void PathChecker::check_independent(std::size_t step, std::int64_t u) {
@@ -215,7 +229,12 @@ void PathChecker::check_last_step(std::int64_t u) {
   if (path_->end == EscapeEnd::not_allowed) return;
   // The end says whether there is an action.
   if (path_->end == EscapeEnd::no_common_action || path_->end == EscapeEnd::no_silent_action) return;
-  if (path_->end >= EscapeEnd::arrived) return;  // the post has left through a `goal` side, or a `safe` one
+  if (path_->end == EscapeEnd::never_arrives || path_->end == EscapeEnd::time_lost) {
+    if (!progress_ || !progress_->leaves_through_safe_side(cell_, u))
+      differs(step, "the last action does not leave through a safe side");
+    return;
+  }
+  if (path_->end >= EscapeEnd::arrived) return;  // the post has left through a `goal` side
   if (path_->end == EscapeEnd::unsafe_between_samples) {
     if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the motion to the next sample is safe");
   } else if (path_->end != EscapeEnd::left_domain || !path_->left_side) {
@@ -271,10 +290,30 @@ void PathChecker::check_goal_end() {
   const auto last = path_->cell.end() - 1;
   if (path_->end == EscapeEnd::arrived && stays && progress_->arrival(*last) != 0)
     wrong(path_->samples(), "the last cell is not in the goal");
-  if (path_->end == EscapeEnd::never_arrives && stays && std::find(path_->cell.begin(), last, *last) == last)
-    wrong(path_->samples(), "the last cell does not repeat");
+  if (path_->end == EscapeEnd::never_arrives && stays) {
+    const auto first = std::find(path_->cell.begin(), last, *last);
+    if (first == last) wrong(path_->samples(), "the last cell does not repeat");
+    if (first != last && goal_) check_cycle(static_cast<std::size_t>(first - path_->cell.begin()));
+  }
   if (path_->end == EscapeEnd::time_lost && path_->phase.back() != EscapePhase::approaching)
     wrong(path_->samples(), "only independent choices can lose time");
+}
+
+/// Whether the samples from this one on, which the last one repeats, show that the goal cannot be kept, or is
+/// not visited again.
+void PathChecker::check_cycle(std::size_t begin) {
+  bool some_inside = false, some_outside = false, some_open = false;
+  for (std::size_t s = begin; s + 1 < path_->samples(); ++s) {
+    const SafeVerdict verdict = goal_->judge(static_cast<std::int64_t>(path_->cell[s]), true);
+    some_inside = some_inside || verdict == SafeVerdict::safe;
+    some_outside = some_outside || verdict == SafeVerdict::unsafe;
+    some_open = some_open || (verdict != SafeVerdict::safe && verdict != SafeVerdict::unsafe);
+  }
+  const bool is_stay = context_.spec->goal_then == GoalThen::stay;
+  if (is_stay ? some_outside : !some_inside && !some_open) return;
+  const bool is_open = is_stay ? some_open : !some_inside;
+  if (is_open) return tally_->add_unproven();
+  wrong(path_->samples(), is_stay ? "the cells that repeat are in the goal" : "the goal is visited again");
 }
 
 bool PathChecker::is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const {

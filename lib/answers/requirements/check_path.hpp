@@ -10,6 +10,7 @@
 #include "answers/checking/claimed_values.hpp"
 #include "answers/checking/ruled_choices.hpp"
 #include "answers/checking/tally.hpp"
+#include "answers/invariance/check_safe.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "model/input_class.hpp"
 
@@ -18,7 +19,9 @@ namespace coordreq {
 /// Follows a counterexample step by step: each joint input is in IND_C of its cell (outside K: is allowed,
 /// and the collision time falls by one), each next cell is in its post, the delay falls by one down to 0, and
 /// the path ends as claimed. With the delays and collision times of the file, which other checks confirm, the
-/// path is then a shortest one. On the way to the goal arrivals and approach delays take their place.
+/// path is then a shortest one. On the way to the goal arrivals and approach delays take their place. Where
+/// each step to a goal to stay at leads to the arrival that its cell forces, arrival(x) cells are outside the
+/// goal, for only these lose one.
 class PathChecker {
  public:
   PathChecker(const CheckContext& context, const RequirementSpec& asked);
@@ -42,6 +45,7 @@ class PathChecker {
   void check_end();
   [[nodiscard]] bool ends_in_sight(std::size_t cell) const;
   void check_goal_end();
+  void check_cycle(std::size_t begin);
 
   [[nodiscard]] std::optional<std::int64_t> input_of(std::size_t step) const;
   /// Whether the action of each class in u occurs in some of these joint inputs.
@@ -62,6 +66,8 @@ class PathChecker {
   const std::vector<std::int32_t>& collision_time_;
   std::optional<std::size_t> partition_;     ///< nothing for `invariant` and `max_arrival`
   std::optional<ClaimedProgress> progress_;  ///< of requirements about the goal
+  std::optional<SafeMemory> goal_memory_;    ///< of a lasting goal, with the next
+  std::optional<SafeJudge> goal_;
   std::vector<InputClass> classes_;
   std::optional<RuledChoices> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
   CheckedCell cell_;                                 ///< of the sample being checked

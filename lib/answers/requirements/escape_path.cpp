@@ -101,6 +101,43 @@ class EscapeFinder : public EscapeRun {
     return result;
   }
 
+  /// How soon the world shows the arrival of a lasting goal after u from the present cell: the less, the
+  /// sooner.
+  std::int64_t soonest(std::int64_t u, std::int32_t worst) {
+    if (progress_.leaves_through_safe_side(u)) return -1;
+    const CellPost post = posts_.post(u, tubes_);
+    std::int64_t least = INT64_MAX;
+    if (post.all_left) return least;
+    for_each_cell(grid_, post.box, [&](std::int64_t y) {
+      if (arrival(y) == worst) least = std::min(least, level_of(*sets_.showing_order, y));
+      return true;
+    });
+    return least;
+  }
+
+  /// The choice of agents who want to arrive soonest, or where they have none what the world chooses for
+  /// them: (worst arrival, joint input).
+  std::pair<std::int32_t, std::int64_t> choose_together(std::int64_t cell) {
+    const bool is_given = context_.spec.controller.synthesis == Synthesis::given;
+    std::optional<std::pair<std::int32_t, std::int64_t>> best;
+    std::vector<std::int64_t> equal;
+    for (const std::int64_t u : inputs_.of(cell)) {
+      const std::int32_t own = progress_.worst(cell, u);
+      if (best && own == best->first) equal.push_back(u);
+      if (best && (is_given ? own <= best->first : own >= best->first)) continue;
+      best = {own, u};
+      equal = {u};
+    }
+    if (!is_given || sets_.showing_order == nullptr) return *best;
+    std::int64_t least = INT64_MAX;
+    for (const std::int64_t u : equal) {
+      const std::int64_t own = soonest(u, best->first);
+      if (own < least) best->second = u;
+      least = std::min(least, own);
+    }
+    return *best;
+  }
+
   /// One step of all agents together to the goal, as badly as it can turn out. @returns whether to go on
   bool take_together() {
     const std::int64_t cell = path_.cells.back();
@@ -108,19 +145,18 @@ class EscapeFinder : public EscapeRun {
       path_.end = EscapeEnd::arrived;
       return false;
     }
-    const bool is_given = context_.spec.controller.synthesis == Synthesis::given;
-    std::optional<std::pair<std::int32_t, std::int64_t>> best;  // (worst arrival, joint input)
-    for (const std::int64_t u : inputs_.of(cell)) {
-      const std::int32_t own = progress_.worst(cell, u);
-      if (!best || (is_given ? own > best->first : own < best->first)) best = {own, u};
-    }
-    const auto [worst, u] = *best;
+    const auto [worst, u] = choose_together(cell);
     path_.joint_inputs.push_back(u);
     path_.phases.push_back(EscapePhase::together);
-    const CellPost post = posts_.post(u, tubes_);
-    const std::int64_t next =
-        steps_.next_cell(cell, post, u, [&, worst = worst](std::int64_t y) { return arrival(y) == worst; });
     path_.end = worst == INT32_MAX ? EscapeEnd::never_arrives : EscapeEnd::arrived;
+    posts_.move_to(cell);
+    const CellPost post = posts_.post(u, tubes_);
+    const bool is_lasting = sets_.showing_order != nullptr;
+    const std::int64_t first = is_lasting ? soonest(u, worst) : 0;
+    if (first < 0) return false;  // to T through a `safe` side
+    const std::int64_t next = steps_.next_cell(cell, post, u, [&, worst = worst](std::int64_t y) {
+      return arrival(y) == worst && (!is_lasting || level_of(*sets_.showing_order, y) == first);
+    });
     if (next < 0) return false;  // the post has left the domain
     const bool comes_again = std::find(path_.cells.begin(), path_.cells.end(), next) != path_.cells.end();
     path_.cells.push_back(next);
@@ -130,7 +166,9 @@ class EscapeFinder : public EscapeRun {
   /// One step of agents that act alone on the way to the goal. @returns whether to go on
   bool take_approaching() {
     const std::int64_t cell = path_.cells.back();
-    const std::vector<bool> choices = independent(progress_.of(cell, inputs_.of(cell)));
+    const std::vector<std::int64_t>& admissible = inputs_.of(cell);
+    const std::vector<bool> choices = independent(progress_.of(cell, admissible));
+    const std::int32_t most = progress_.limit(cell, admissible);
     const std::int64_t layers = level_of(*sets_.approach_of, cell);
     if (layers > 1) {
       const auto is_choice = [&](std::int64_t u) { return choices[static_cast<std::size_t>(u)]; };
@@ -143,7 +181,7 @@ class EscapeFinder : public EscapeRun {
       const bool is_forbidden = inputs_.forbids(cell, u);
       const CellPost post = posts_.post(u, tubes_);
       const bool is_blocked = is_forbidden || post.blocked != CellPost::Blocked::no;
-      if (!is_blocked && progress_.worst(cell, u) < arrival(cell)) continue;
+      if (!is_blocked && progress_.worst(cell, u) <= most) continue;
       path_.joint_inputs.push_back(u);
       path_.phases.push_back(EscapePhase::approaching);
       if (is_blocked) {
@@ -153,7 +191,7 @@ class EscapeFinder : public EscapeRun {
       path_.end = EscapeEnd::time_lost;
       const std::int64_t next = steps_.next_cell(cell, post, u, [&](std::int64_t y) {
         const std::int32_t own = arrival(y);
-        return own < 0 || own >= arrival(cell);
+        return own < 0 || own > most;
       });
       if (next >= 0) path_.cells.push_back(next);
       return false;

@@ -39,6 +39,8 @@ struct EscapeSets {
   RequirementKind kind = RequirementKind::min_delay;
   const Goal* goal = nullptr;
   const LevelMap* approach_of = nullptr;
+  /// Of a lasting goal find_showing_order(), where a path may need it; else null.
+  const LevelMap* showing_order = nullptr;
   /// For `min_blind_delay` blind delays and B of the partition; else null.
   const LevelMap* blind_delay_of = nullptr;
   const LevelMap* blind_countdown_of = nullptr;
@@ -66,10 +68,11 @@ struct EscapeSets {
 ///   better. Of equal u, and of equal successors, the lowest-numbered.
 /// - `max_arrival`, from x in K: agents take the lowest-numbered u of least worst arrival, then comes the
 ///   lowest-numbered of the worst y, down to the goal; where the goal cannot be forced the lowest-numbered y
-///   outside W, until a cell repeats.
+///   outside W, until a cell repeats. Of a lasting goal the worst y that comes first in find_showing_order()
+///   (where the controller is `given`, of all u too); T through a `safe` side ends the path at once.
 /// - `min_approach_delay`, from x in W of approach delay k: k steps by u in IND_P, each to a y whose approach
-///   delay is one less, then one to a y that is not nearer; from the goal on as from x in K above, from x in
-///   K outside W as for `max_arrival`.
+///   delay is one less, then one to a y that is not nearer, so that the step makes no progress; from the goal
+///   on, which does not last, as from x in K above, from x in K outside W as for `max_arrival`.
 /// - `min_blind_delay`, from x in K of blind delay k: as from x in K above, but to a countdown of k - 1,
 ///   which falls by one with each step; where it is 0 a class has no action for all cells that it may be
 ///   in, and the path ends (or it leads out of K, if a step does).

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "answers/blind/fields.hpp"
 #include "answers/goal/answer.hpp"
+#include "answers/goal/arrival.hpp"
+#include "answers/goal/fields.hpp"
+#include "answers/goal/showing_order.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/requirements/escape_result.hpp"
@@ -51,11 +55,35 @@ class Judge {
     if (result.is_risk)
       result.risk = compared_risk(requirement, verdict.worst_value, answers_.get<RiskAnswer>().risk.rate);
     result.holds = verdict.failing == 0 && !result.reached_side;
-    if (verdict.worst) result.path = path_from(*verdict.worst, requirement);
+    if (verdict.worst) {
+      if (needs_showing_order(requirement, verdict.worst_value)) find_showing_order_once();
+      result.path = path_from(*verdict.worst, requirement);
+    }
     return result;
   }
 
  private:
+  [[nodiscard]] static bool is_of_goal(const RequirementSpec& requirement) {
+    return requirement.kind == RequirementKind::max_arrival ||
+           requirement.kind == RequirementKind::min_approach_delay;
+  }
+
+  /// Whether the path from a cell of this value asks which worst cell comes first.
+  [[nodiscard]] bool needs_showing_order(const RequirementSpec& requirement, std::int32_t value) const {
+    if (!context_.spec.is_goal_lasting()) return false;
+    if (requirement.kind == RequirementKind::min_approach_delay) return value == kOutsideWinning;
+    if (requirement.kind != RequirementKind::max_arrival || value < 0) return false;
+    return context_.spec.goal_then == GoalThen::stay || value == kNeverArrives;
+  }
+
+  void find_showing_order_once() {
+    if (showing_order_) return;
+    const Goal& goal = answers_.get<Goal>();
+    const LastingProblem problem{goal.engine.get(), controller_.invariant, &goal.cells,
+                                 controller_.synthesis};
+    showing_order_ = find_showing_order(problem, goal.nearness, context_.spec.goal_then, team_);
+  }
+
   [[nodiscard]] CellRequirement ask(const RequirementSpec& requirement) const {
     CellRequirement result{.collision_time = controller_.levels,
                            .kind = requirement.kind,
@@ -90,9 +118,8 @@ class Judge {
                     .invariance = &answers_.get<Invariance>(),
                     .kind = requirement.kind,
                     .number_stride = number_stride_};
-    if (requirement.kind == RequirementKind::max_arrival ||
-        requirement.kind == RequirementKind::min_approach_delay)
-      sets.goal = answers_.find<Goal>();
+    if (is_of_goal(requirement)) sets.goal = answers_.find<Goal>();
+    if (showing_order_) sets.showing_order = &*showing_order_;
     if (requirement.partition) {
       const auto p = static_cast<std::size_t>(*requirement.partition);
       sets.classes = input_classes(context_.spec, context_.abstraction->inputs,
@@ -120,6 +147,7 @@ class Judge {
   ThreadTeam& team_;
   UniformGrid grid_;                         ///< the spec's
   CellRequirement asked_;                    ///< the requirement being judged
+  std::optional<LevelMap> showing_order_;    ///< of a lasting goal, once a path needs it
   std::vector<std::int64_t> number_stride_;  ///< [dimension of the engine]
 };
 
