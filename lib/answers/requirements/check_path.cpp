@@ -133,11 +133,9 @@ EscapePhase PathChecker::phase_of(std::size_t step) const {
 void PathChecker::check_together(std::size_t step, std::int64_t u) {
   if (cell_.admitted()[at(u)] == 0) return differs(step, "the joint input is not admissible");
   const std::int32_t arrival = progress_->arrival(cell_.at());
-<<<<<<< Updated upstream
-  const std::int32_t expected = arrival == kUnbounded ? kUnbounded : arrival - 1;
-=======
-  const std::int32_t expected = arrival == kForever ? kForever : goal_ ? progress_->best(cell_) : arrival - 1;
->>>>>>> Stashed changes
+  const std::int32_t expected = arrival == kUnbounded ? kUnbounded
+                                : goal_               ? progress_->best(cell_)
+                                                      : arrival - 1;
   if (arrival <= 0 || progress_->worst(cell_, u) != expected)
     differs(step, "the joint input does not have the shortest time to the goal");
   if (step + 1 < path_->samples() && progress_->arrival(path_->cell[step + 1]) != expected)
@@ -153,13 +151,8 @@ void PathChecker::check_approaching(std::size_t step, std::int64_t u) {
     return;
   }
   const bool stays = step + 1 < path_->samples();
-<<<<<<< Updated upstream
   const std::int32_t next = stays ? progress_->arrival(path_->cell[step + 1]) : kUnbounded;
-  if (next >= 0 && next < progress_->arrival(cell_.at())) differs(step, "no time is lost");
-=======
-  const std::int32_t next = stays ? progress_->arrival(path_->cell[step + 1]) : kForever;
   if (next >= 0 && next <= progress_->limit(cell_)) differs(step, "no time is lost");
->>>>>>> Stashed changes
 }
 
 void PathChecker::check_independent(std::size_t step, std::int64_t u) {

@@ -8,7 +8,6 @@
 
 #include "answers/blind/fields.hpp"
 #include "answers/goal/answer.hpp"
-#include "answers/goal/arrival.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/goal/showing_order.hpp"
 #include "answers/invariance/answer.hpp"
@@ -18,6 +17,7 @@
 #include "answers/requirements/risk_limit.hpp"
 #include "answers/risk/answer.hpp"
 #include "answers/silence/answer.hpp"
+#include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -73,7 +73,7 @@ class Judge {
     if (!context_.spec.is_goal_lasting()) return false;
     if (requirement.kind == RequirementKind::min_approach_delay) return value == kOutsideWinning;
     if (requirement.kind != RequirementKind::max_arrival || value < 0) return false;
-    return context_.spec.goal_then == GoalThen::stay || value == kNeverArrives;
+    return context_.spec.goal_then == GoalThen::stay || value == kUnbounded;
   }
 
   void find_showing_order_once() {
