@@ -69,7 +69,9 @@ SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& sett
 
 void add_read_files(const std::string& path, const ProblemSpec* spec, FilesInUse& files) {
   files.reads(path, "the spec");
-  if (spec != nullptr && spec->controller.file) files.reads(controller_path(*spec), "the controller");
+  if (spec == nullptr) return;
+  if (spec->controller.file) files.reads(controller_path(*spec), "the controller");
+  for (const std::string& file : written_spec(*spec).tables) files.reads(file, "a table of the spec");
 }
 
 SpecSource load_source(const std::string& path, std::optional<std::uint64_t> memory) {
@@ -82,9 +84,11 @@ SpecSource load_source(const std::string& path, std::optional<std::uint64_t> mem
 }
 
 ProblemSpec read_with_settings(const SpecSource& source, const std::vector<SpecSetting>& settings) {
-  const auto written = std::make_shared<const WrittenSpec>(WrittenSpec{source.text, settings});
-  ProblemSpec spec = with_places(*written, [&] { return read_spec(with_settings(source, settings)); });
-  if (!settings.empty()) spec.written = written;
+  WrittenSpec written{source.text, settings, {}};
+  ProblemSpec spec = with_places(written, [&] { return read_spec(with_settings(source, settings)); });
+  if (settings.empty()) return spec;
+  written.tables = written_spec(spec).tables;
+  spec.written = std::make_shared<const WrittenSpec>(std::move(written));
   return spec;
 }
 

@@ -6,52 +6,15 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/csv.hpp"
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "cell/state_text.hpp"
 #include "spec/json_document.hpp"
+#include "spec/json_text.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
-namespace {
-
-/// The fields of a line of CSV (RFC 4180). @throws UsageError
-std::vector<std::string> csv_fields(std::string_view line, const std::string& where) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      fields.back() += line[++i];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += c;
-    }
-  }
-  if (quoted) throw UsageError("a quotation mark is not closed", where);
-  return fields;
-}
-
-/// Refuses tables as they are usual where numbers are written with commas.
-void check_commas(std::string_view header, const std::string& where) {
-  if (header.find(',') != std::string_view::npos) return;
-  for (const auto& [sign, words] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
-    if (header.find(sign) == std::string_view::npos) continue;
-    throw UsageError(fmt::format("expected commas between columns and points in numbers, found {}", words),
-                     where);
-  }
-}
-
-/// Of a line with more values than columns: whether commas in numbers can be why.
-std::string comma_hint(std::size_t columns, std::size_t values) {
-  return values > columns ? "; numbers need a decimal point, not a comma" : "";
-}
-
-}  // namespace
-
 std::string StateReader::Extra::text() const {
   if (!is_json) return std::string(trimmed(value));
   const Json json = parse_json(value);
@@ -62,14 +25,17 @@ std::string StateReader::Extra::text() const {
 StateReader::StateReader(std::istream& stream, StateNames states, std::string source)
     : stream_(stream), names_(std::move(states.names)), needed_(states.needed), source_(std::move(source)) {
   pending_ = read_line();
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (line_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) line_.erase(0, kByteOrderMark.size());
+  line_ = std::string(without_byte_order_mark(line_));
   if (!pending_) return;
   if (trimmed(line_).front() == '{') {
     format_ = Format::json_lines;
   } else {
     read_header();
   }
+}
+
+RefuseLine StateReader::refusal() const {
+  return [this](const std::string& what) { throw UsageError(what, place()); };
 }
 
 std::string StateReader::place() const {
@@ -99,9 +65,7 @@ std::string StateReader::missing(const char* what, const std::string& state) con
 }
 
 void StateReader::read_header() {
-  check_commas(trimmed(line_), place());
-  for (const std::string& field : csv_fields(line_, place())) {
-    const std::string name(trimmed(field));
+  for (const std::string& name : csv_columns(line_, refusal())) {
     const std::size_t state = state_of(name);
     if (state == names_.size()) {
       extra_names_.push_back(name);
@@ -123,12 +87,7 @@ std::optional<std::vector<Rational>> StateReader::next() {
 }
 
 std::vector<Rational> StateReader::csv_state() {
-  const std::vector<std::string> fields = csv_fields(line_, place());
-  if (fields.size() != columns_.size()) {
-    throw UsageError(fmt::format("expected {} values, found {}{}", columns_.size(), fields.size(),
-                                 comma_hint(columns_.size(), fields.size())),
-                     place());
-  }
+  const std::vector<std::string> fields = csv_values(line_, columns_.size(), refusal());
   std::vector<Rational> state(names_.size());
   is_given_.assign(names_.size(), false);
   extra_.clear();

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/csv.hpp"
 #include "cell/state_text.hpp"
 #include "numeric/rational.hpp"
 
@@ -48,6 +49,7 @@ class StateReader {
   [[nodiscard]] std::string place() const;
 
  private:
+  [[nodiscard]] RefuseLine refusal() const;
   [[nodiscard]] bool read_line();
   void read_header();
   [[nodiscard]] std::vector<Rational> csv_state();

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv.hpp"
 #include "numeric/rational.hpp"
 #include "spec/spec_types.hpp"
 
@@ -31,9 +32,6 @@ struct StateNames {
 /// @throws UsageError naming what is unknown, missing, given twice or no number
 [[nodiscard]] std::vector<Rational> parse_state(std::string_view text, const StateNames& states,
                                                 const std::string& where);
-
-/// `text` without blanks at its ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// The text cut at commas that stand in no parentheses.
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);

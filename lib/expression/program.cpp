@@ -51,7 +51,8 @@ class Linker {
     if (node.op == Operator::constant) return {tape_.constant(tree.numbers[node.item]), false, node.offset};
     if (node.op == Operator::variable && node.operands == 0) return name(tree.names[node.item], node.offset);
     const std::vector<Value> operands = take_operands(node.operands);
-    if (node.op == Operator::variable) return call(*tables_(tree.names[node.item]), operands, node.offset);
+    if (node.op == Operator::variable)
+      return call(*tables_.find(tree.names[node.item]), operands, node.offset);
     if (is_comparison(node.op)) return chain(tree, node, operands);
     check_types(node.op, operands);
     return {apply(node.op, operands), is_condition(node.op), node.offset};
@@ -167,7 +168,7 @@ Program link(std::string_view text, const Lookup& lookup, const TableLookup& tab
 }
 
 Program link(std::string_view text, const Lookup& lookup, ExpectedType expected, std::string_view where) {
-  return link(text, lookup, no_table, expected, where);
+  return link(text, lookup, TableLookup{no_table}, expected, where);
 }
 
 std::vector<std::string> mentioned_names(std::string_view text, const TableLookup& tables,
@@ -184,7 +185,7 @@ std::vector<std::string> mentioned_names(std::string_view text, const TableLooku
 }
 
 std::vector<std::string> mentioned_names(std::string_view text, std::string_view where) {
-  return mentioned_names(text, no_table, where);
+  return mentioned_names(text, TableLookup{no_table}, where);
 }
 
 bool is_reserved_name(std::string_view name) {

@@ -162,7 +162,7 @@ class Parser {
         fail_count(*function, arguments, word.offset);
       return emit(function->op, arguments, word.offset);
     }
-    if (const TableFunction* const table = tables_(word.text); table != nullptr)
+    if (const TableFunction* const table = tables_.find(word.text); table != nullptr)
       return call_table(word, *table);
     if (token_.kind == TokenKind::open) fail_function(word);
     emit(Operator::variable, 0, word.offset, tree_.names.size());
@@ -267,7 +267,8 @@ class Parser {
                               in_quotes(word.text)),
                   word.offset);
     }
-    const std::string meant = meant_function(word.text);
+    std::string meant = meant_function(word.text);
+    if (meant.empty()) meant = tables_.hint(word.text);
     if (!meant.empty())
       place_.fail(fmt::format("{} is not a function{}", in_quotes(word.text), meant), word.offset);
     std::string known = fmt::format("{}, {}", spelling(Operator::if_else), spelling(Operator::modulo));

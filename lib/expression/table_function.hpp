@@ -25,15 +25,20 @@ struct TableFunction {
   Program value;
 };
 
-/// Null if the name is no table. May throw SpecError.
-using TableLookup = std::function<const TableFunction*(std::string_view name)>;
+/// The tables that an expression can call.
+struct TableLookup {
+  /// Null if the name is no table. May throw SpecError.
+  std::function<const TableFunction*(std::string_view name)> find;
+  /// Of a name that is called like one but is none, for the end of the message.
+  std::function<std::string(std::string_view name)> hint = [](std::string_view) { return std::string(); };
+};
 
 /// The continuous function that is linear between neighbouring points (x[i], value[i]), made of the operators
 /// of the grammar. A sum of kinks would be shorter, but intervals would not see that its terms belong
 /// together. So a part that rises or falls is a maximum of minima of its lines (Tarela and Martinez 1999),
 /// and parts are joined by minimum at a peak and by maximum at a valley. Intervals then enclose the range
-/// exactly if the function rises, falls or turns once, and at a kink the derivatives are the hull of the
-/// slopes that meet there. Two opposite slopes are an `abs`.
+/// exactly, and at a kink the derivatives are the hull of the slopes that meet there. Two opposite slopes are
+/// an `abs`.
 /// @pre at least two x, ascending; as many values
 [[nodiscard]] TableFunction linear_table(std::span<const Rational> x, std::span<const Rational> value,
                                          BeyondAxis beyond);

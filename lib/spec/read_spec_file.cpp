@@ -7,12 +7,14 @@
 #include <cerrno>
 #include <filesystem>
 #include <istream>
+#include <memory>
 #include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/read_tables.hpp"
+#include "spec/spec_place.hpp"
 
 namespace coordreq {
 namespace {
@@ -86,7 +88,12 @@ SpecSource read_spec_source(const std::string& path, std::istream& standard_inpu
 }
 
 ProblemSpec read_spec(SpecSource source) {
-  ProblemSpec spec = read_spec(with_table_files(source), source.name);
+  SpecWithTables whole = with_table_files(source);
+  ProblemSpec spec = read_spec(std::move(whole.text), source.name);
+  if (!whole.files.empty()) {
+    spec.written =
+        std::make_shared<const WrittenSpec>(WrittenSpec{std::move(source.text), {}, std::move(whole.files)});
+  }
   spec.folder = std::move(source.folder);
   return spec;
 }

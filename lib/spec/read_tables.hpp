@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "expression/table_function.hpp"
 #include "spec/json_document.hpp"
@@ -14,10 +15,15 @@ namespace coordreq {
 [[nodiscard]] TableFunction read_table(const JsonDocument::Node& table,
                                        const std::function<Rational(const JsonDocument::Node&)>& number);
 
+struct SpecWithTables {
+  std::string text;
+  std::vector<std::string> files;  ///< that were read
+};
+
 /// The text of a spec with what its tables have in files put in place of these, so that it needs none of
 /// them again. The text itself if there are none.
 /// @throws SpecError if a file cannot be read or is no table, with its line; what else is wrong with the spec
 ///   is for read_spec() to say
-[[nodiscard]] std::string with_table_files(const SpecSource& source);
+[[nodiscard]] SpecWithTables with_table_files(const SpecSource& source);
 
 }  // namespace coordreq

@@ -156,12 +156,17 @@ void Scope::read_tables(const Node& tables) {
 }
 
 TableLookup Scope::tables_for(const std::string& pointer) const {
-  return [this, pointer](std::string_view name) -> const TableFunction* {
+  const auto find = [this, pointer](std::string_view name) -> const TableFunction* {
     const auto table = tables_.find(name);
     if (table != tables_.end()) return &table->second;
     if (names_.find(std::string(name)) != NameKind::table) return nullptr;
     throw SpecError(fmt::format("expected constants only, found the table {}", quote_text(name)), pointer);
   };
+  return {find, [this](std::string_view name) {
+            std::vector<std::string> known;
+            for (const auto& [own, table] : tables_) known.push_back(own);
+            return suggestion(name, known);
+          }};
 }
 
 std::vector<std::string> Scope::mentioned_in(const Node& expression) const {

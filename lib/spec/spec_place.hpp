@@ -16,8 +16,9 @@ namespace coordreq {
 
 /// A spec as its author has written it, and what has been set in it since.
 struct WrittenSpec {
-  std::string text;                   ///< empty: not known
-  std::vector<SpecSetting> settings;  ///< carried out one after the other
+  std::string text;                      ///< empty: not known
+  std::vector<SpecSetting> settings;     ///< carried out one after the other
+  std::vector<std::string> tables = {};  ///< paths of the files that tables were read from
 };
 
 /// The text and the settings that `spec` was read from.

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/csv.hpp"
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "numeric/rational.hpp"
@@ -33,23 +34,6 @@ struct Cell {
   bool operator<(const Cell& other) const { return value < other.value; }
 };
 
-std::string trimmed(std::string text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string::npos) return {};
-  text = text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-  const bool is_quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
-  return is_quoted ? text.substr(1, text.size() - 2) : text;
-}
-
-Texts cells_of(const std::string& line) {
-  Texts cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(trimmed(cell));
-  if (!line.empty() && line.back() == ',') cells.emplace_back();
-  return cells;
-}
-
 /// A number as JSON may have it in a spec: one that is typed in another way is a text.
 std::string as_json(const Cell& cell) {
   return is_json(cell.text) ? cell.text : '"' + cell.text + '"';
@@ -72,10 +56,10 @@ class TableFile {
       if (line_ == 1) line = std::string(without_byte_order_mark(line));
       if (trimmed(line).empty() || line.front() == '#') continue;
       if (columns_.empty()) {
-        columns_ = cells_of(line);
+        columns_ = csv_columns(line, refusal());
         find_columns();
       } else {
-        add(cells_of(line));
+        add(csv_values(line, columns_.size(), refusal()));
       }
     }
     if (columns_.empty()) fail("expected a line with the columns 'x' and 'value', found nothing");
@@ -109,6 +93,10 @@ class TableFile {
     fail(fmt::format("line {}, {}", line_, what));
   }
 
+  [[nodiscard]] RefuseLine refusal() const {
+    return [this](const std::string& what) { fail_at_line(what); };
+  }
+
   [[nodiscard]] std::string read() const {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path_, error);
@@ -132,8 +120,6 @@ class TableFile {
   }
 
   void find_columns() {
-    if (columns_.size() == 1 && columns_.front().find(';') != std::string::npos)
-      fail_at_line("expected commas between columns, found semicolons");
     for (const char* name : {"x", "value"}) {
       if (column(name) == columns_.size())
         fail_at_line(
@@ -143,8 +129,6 @@ class TableFile {
   }
 
   void add(const Texts& cells) {
-    if (cells.size() != columns_.size())
-      fail_at_line(fmt::format("expected {} columns, found {}", columns_.size(), cells.size()));
     const Cell x = number(cells[column("x")]);
     if (!has_y_ && !x_.empty() && x.value <= x_.back().value)
       fail_at_line(fmt::format("expected x > {}, found {}", x_.back().text, x.text));
@@ -153,7 +137,8 @@ class TableFile {
     value_.push_back(number(cells[column("value")]));
   }
 
-  [[nodiscard]] Cell number(const std::string& text) const {
+  [[nodiscard]] Cell number(std::string_view field) const {
+    const std::string text(trimmed(field));
     const std::optional<Rational> value = parse_decimal(text);
     if (!value) fail_at_line("expected a number, found " + quote_text(text));
     return {text, *value};
@@ -187,14 +172,13 @@ bool has_file(const Node& table) {
   });
 }
 
-/// The table as JSON, with its values.
-std::string with_values(const Node& table, const std::string& folder) {
+/// The table as JSON, with its values. @param path of its file
+std::string with_values(const Node& table, const std::string& path) {
   for (const char* key : {"x", "y", "value"}) {
     if (table.has(key))
       throw SpecError(fmt::format("expected no {} beside 'file'", quote_text(key)), table[key].pointer());
   }
-  const Node file = table["file"];
-  const TableFile content((std::filesystem::path(folder) / file.text()).string(), file.pointer());
+  const TableFile content(path, table["file"].pointer());
   std::string members = content.members();
   if (table.has("outside")) members += fmt::format(R"(, "outside": {})", table["outside"].json());
   return "{" + members + "}";
@@ -202,18 +186,20 @@ std::string with_values(const Node& table, const std::string& folder) {
 
 }  // namespace
 
-std::string with_table_files(const SpecSource& source) {
-  if (source.text.find("\"tables\"") == std::string::npos) return source.text;
+SpecWithTables with_table_files(const SpecSource& source) {
+  SpecWithTables spec{source.text, {}};
+  if (source.text.find("\"tables\"") == std::string::npos) return spec;
   const JsonDocument document = JsonDocument::parse(source.text, source.name);
   const Node root = document.root();
-  std::string text = source.text;
-  if (!root.is_object() || !root.has("tables") || !root["tables"].is_object()) return text;
+  if (!root.is_object() || !root.has("tables") || !root["tables"].is_object()) return spec;
   for (const std::string& name : root["tables"].keys()) {
     const Node table = root["tables"][name];
     if (!has_file(table)) continue;
-    text = with_setting(text, source.name, {table.pointer(), with_values(table, source.folder)});
+    spec.files.push_back((std::filesystem::path(source.folder) / table["file"].text()).string());
+    spec.text =
+        with_setting(spec.text, source.name, {table.pointer(), with_values(table, spec.files.back())});
   }
-  return text;
+  return spec;
 }
 
 }  // namespace coordreq

@@ -199,6 +199,31 @@ class Cases(Case):
         self.write_csv("other.csv", ["x", "value"], [(-3, 0), (3, 0)])
         self.analyze("there/s.json", "--set", "tables.drag.file=../other.csv")
 
+    def test_no_output_takes_the_place_of_a_table(self):
+        self.write_csv("drag.csv", ["x", "value"], zip(DRAG["x"], DRAG["value"]))
+        self.write("s.json", system({"x": "u - drag(x)"}, {"drag": {"file": "drag.csv"}}))
+        before = (self.folder / "drag.csv").read_bytes()
+        for words, option in ((["-o", "drag.csv"], "--output"), (["--junit", "./drag.csv"], "--junit")):
+            what = f"expected another file than a table of the spec, found '{words[1]}' ({option})"
+            self.assert_fails(2, what, "analyze", "s.json", "--force", *words)
+        self.assertEqual((self.folder / "drag.csv").read_bytes(), before)
+
+    def test_errors_have_the_place_in_the_spec_as_written(self):
+        self.write_csv("drag.csv", ["x", "value"], [(0, 0), (1, 1)])
+        self.write("s.json", system({"x": "u - drag(x)"}, {"drag": {"file": "drag.csv"}}))
+        lines = (self.folder / "s.json").read_text().splitlines()
+        (place,) = [(i, line.index('"u - drag')) for i, line in enumerate(lines, 1) if '"u - drag' in line]
+        self.shows_places = True
+        result = self.run_program("validate", "s.json")
+        self.assertIn(f"(/dynamics/equations/x; line {place[0]}, column {place[1] + 1})", result.stderr.decode())
+
+    def test_quoted_numbers_and_names_are_read(self):
+        self.write("drag.csv", '"x", "value"\r\n" -4 ","-4"\r\n"4",6\r\n')
+        self.write("s.json", system({"x": "u - drag(x)"}, {"drag": {"file": "drag.csv"}}))
+        self.analyze("s.json")
+        self.write("drag.csv", 'x,value\n"1,2\n')
+        self.assert_fails(3, "drag.csv: line 2, a quotation mark is not closed (/tables/drag/file)", "validate", "s.json")
+
     def test_settings_and_sweeps(self):
         self.write("s.json", system({"x": "u - drag(x)"}, {"drag": {"x": [-4, 4], "value": ["c", 0]}}, constants={"c": 0}))
         for name in ("tables.drag.value.1", "constants.c"):
@@ -212,11 +237,11 @@ class Cases(Case):
         self.assert_fails(3, "drag.csv: no such file (/tables/drag/file)", "validate", "s.json")
         for text, what in {
             "": "expected a line with the columns 'x' and 'value', found nothing",
-            "x;value\n1,5;2\n": "line 1, expected commas between columns, found semicolons",
+            "x;value\n1,5;2\n": "line 1, expected commas between columns and points in numbers, found semicolons",
             "x,y\n1,2\n": "line 1, expected a column 'value', found 'x' and 'y'",
             "# speed\nx,value\n1,2\n\n2,x\n": "line 5, expected a number, found 'x'",
             "x,value\n1,\n": "line 2, expected a number, found ''",
-            "x,value\n1,2,3\n": "line 2, expected 2 columns, found 3",
+            "x,value\n1,2,3\n": "line 2, expected 2 values, found 3; numbers need a decimal point, not a comma",
             "x,value\n1,2\n1.0,3\n": "line 3, expected x > 1, found 1.0",
             "x,y,value\n1,2,3\n1,2.0,3\n": "the value at x = 1, y = 2.0 stands there twice",
             "x,y,value\n1,2,3\n2,2,3\n1,3,3\n": "no value at x = 2, y = 3",
@@ -260,6 +285,8 @@ class Cases(Case):
         ):
             self.write("s.json", system({"x": equation}, {"t": points}))
             self.assert_fails(3, what, "validate", "s.json")
+        self.write("s.json", system({"x": "u + drga(x)"}, {"drag": points}))
+        self.assert_fails(3, "'drga' is not a function, did you mean 'drag'? (/dynamics/equations/x, column 5)", "validate", "s.json")
         self.write("s.json", system({"x": "u"}, {"t": points}, constants={"c": "t(1)"}))
         self.assert_fails(3, "expected constants only, found the table 't' (/constants/c)", "validate", "s.json")
 
