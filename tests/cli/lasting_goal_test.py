@@ -166,6 +166,16 @@ class Cases(Case):
             self.assertEqual(result.returncode, 1, result.stdout.decode())
             self.assertIn(b"are in the goal" if then == "stay" else b"visited again", result.stdout)
 
+    def test_the_world_chooses_of_what_the_controller_lists(self):
+        # Below 3 the controller lists waiting, so that nobody need ever come to the goal; in 4 it goes back.
+        for then in ("stay", "return"):
+            given = game(4, "if(p < 3, p + u, if(p == 3, p, p - 1))", "p == 3", then, controller={"synthesis": "given", "allow": "u >= 0"})
+            self.assertEqual(self.results(given)["arrival"].tolist(), [MOST, MOST, MOST, 0, 1])
+            cells, end, _ = self.story(given, "p == 1", max_arrival=9)
+            self.assertEqual((cells, end), ([1, 1], "never_arrives"))
+            cells, end, _ = self.story(given, "p == 4", max_arrival=0)
+            self.assertEqual((cells, end), ([4, 3], "arrived"))
+
     def test_silence_that_fails_the_task(self):
         # Alone in 2 agents may miss each other, which leads out of the goal; from 3 that takes one step more.
         cells, end, text = self.story(meeting("stay"), "p == 3", min_approach_delay=2)

@@ -38,6 +38,12 @@ std::string draw_lasting() {
       nlohmann::json::parse(with_requirements(draw(0, 1) == 0 ? draw_team() : draw_problem()));
   spec["goal"] = {{"where", draw_goal(spec["states"])},
                   {"then", *rc::gen::element<std::string>("stay", "return")}};
+  if (draw(0, 1) == 0) {  // all cells are in K, so that a path begins there
+    spec["safe"] = "true";
+    for (nlohmann::json& state : spec["states"]) {
+      if (!state.contains("outside") || state["outside"] == "unsafe") state["outside"] = "saturate";
+    }
+  }
   const ProblemSpec read = read_spec(spec.dump(), "random");
   const auto most = static_cast<int>(std::min<std::int64_t>(read.coordination.max_delay.value_or(3), 3));
   for (nlohmann::json& requirement : spec["requirements"]) {
