@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/render.hpp"
+#include "base/grouped.hpp"
 #include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
@@ -82,8 +83,8 @@ struct GoalWords {
 };
 GoalWords goal_words(GoalThen then) {
   if (then == GoalThen::stay) {
-    return {.claim = "outside the goal for at most {steps}",
-            .failing = "may be outside the goal for {steps}",
+    return {.claim = "outside the goal for at most {samples}",
+            .failing = "may be outside the goal for {samples}",
             .never = "the state may never stay in the goal",
             .arrived = "the state can stay in the goal, after too many samples outside",
             .cannot = "cannot be made to stay in the goal",
@@ -192,6 +193,7 @@ std::string worst_text(const Json& kind, const Json& value, const Json& status, 
   const std::string text = is_arrival ? goal_words(spec.goal_then).failing : traits.failing;
   return fmt::format(fmt::runtime(text),
                      fmt::arg("steps", is_risk ? "" : steps_text(value.get<std::int64_t>(), spec)),
+                     fmt::arg("samples", is_risk ? "" : count_of(value.get<std::int64_t>(), "sample")),
                      fmt::arg("risk", is_risk ? probability_text(value) : ""));
 }
 
@@ -217,10 +219,12 @@ std::string claim_text(const Json& entry, const ProblemSpec& spec) {
     return fmt::format(fmt::runtime(kind.claim),
                        fmt::arg("risk", fmt::format("{:g}{}", entry[kind.key].get<double>(), per)));
   }
-  const std::string steps = entry.contains(kind.key) ? steps_text(number_of(entry[kind.key]), spec) : "";
+  const bool has_limit = entry.contains(kind.key);
+  const std::string steps = has_limit ? steps_text(number_of(entry[kind.key]), spec) : "";
+  const std::string samples = has_limit ? count_of(number_of(entry[kind.key]), "sample") : "";
   const bool is_arrival = kind.kind == RequirementKind::max_arrival;
   const std::string text = is_arrival ? goal_words(spec.goal_then).claim : kind.claim;
-  return fmt::format(fmt::runtime(text), fmt::arg("steps", steps),
+  return fmt::format(fmt::runtime(text), fmt::arg("steps", steps), fmt::arg("samples", samples),
                      fmt::arg("partition", entry["partition"].is_null() ? "" : text_of(entry["partition"])));
 }
 

@@ -146,74 +146,6 @@ class Lattice {
   std::vector<Pieces> below_;  ///< by line
 };
 
-/// A part of a function from its least end to its greatest.
-class Ascent {
- public:
-  Ascent(const PiecewiseLinear& f, std::size_t first, std::size_t last)
-      : f_(f), rises_(f.at_end(first) < f.at_end(last)) {
-    for (std::size_t i = first; i <= last; ++i) way_.push_back(rises_ ? i : first + last - i);
-    Rational most = value(0), fall = 0;
-    for (std::size_t k = 1; k < way_.size(); ++k) {
-      most = std::max(most, value(k));
-      if (most - value(k) >= fall) valley_ = k;
-      fall = std::max<Rational>(fall, most - value(k));
-    }
-    least_.assign(valley_ + 1, value(valley_));
-    for (std::size_t k = valley_; k-- > 0;) least_[k] = std::min(least_[k + 1], value(k));
-  }
-
-  [[nodiscard]] Valley valley() const {
-    const Line& line = f_.lines[rises_ ? way_[valley_] : way_[valley_] - 1];
-    std::size_t lowest = valley_;  // up to there the line is below what is least
-    while (lowest > 0 && line.at(x(lowest - 1)) <= least_[lowest - 1]) --lowest;
-    Valley found{way_[valley_], {}, !is_end(way_.back()), std::nullopt};
-    found.side = side(line, found.is_flat_after);
-    if (lowest > 0) found.below = steep_line(lowest, line.at(x(lowest)));
-    return found;
-  }
-
- private:
-  [[nodiscard]] const Rational& x(std::size_t k) const { return f_.ends[way_[k]]; }
-  [[nodiscard]] Rational value(std::size_t k) const { return f_.at_end(way_[k]); }
-  [[nodiscard]] bool is_end(std::size_t i) const { return i == (rises_ ? f_.lines.size() : 0); }
-
-  [[nodiscard]] PiecewiseLinear side(const Line& line, bool is_flat_after) const {
-    std::vector<Rational> places{x(0)}, values{line.at(x(0))};
-    for (std::size_t k = valley_ + 1; k < way_.size(); ++k) {
-      places.push_back(x(k));
-      values.push_back(value(k));
-    }
-    if (is_flat_after) {
-      places.push_back(rises_ ? f_.ends.back() : f_.ends.front());
-      values.push_back(values.back());
-    }
-    if (!rises_) {
-      std::reverse(places.begin(), places.end());
-      std::reverse(values.begin(), values.end());
-    }
-    return through_points(places, values);
-  }
-
-  /// Above all that follows the valley, and below all before `lowest`, where it has this value.
-  [[nodiscard]] Line steep_line(std::size_t lowest, const Rational& level) const {
-    Rational steep = 0;
-    for (std::size_t k = 0; k < way_.size(); ++k) {
-      const Rational distance = abs(Rational(x(k) - x(lowest)));
-      if (k < lowest) steep = std::max<Rational>(steep, (level - least_[k]) / distance);
-      if (k >= valley_) steep = std::max<Rational>(steep, (value(k) - level) / distance);
-    }
-    // A little more, so that it meets neither.
-    const Rational slope = (rises_ ? steep : Rational(-steep)) * Rational(9, 8);
-    return {slope, level - slope * x(lowest)};
-  }
-
-  const PiecewiseLinear& f_;
-  bool rises_;
-  std::vector<std::size_t> way_;  ///< ends
-  std::size_t valley_ = 0;        ///< on the way
-  std::vector<Rational> least_;   ///< up to the valley, of what lies between it and here
-};
-
 }  // namespace
 
 PiecewiseLinear through_points(std::span<const Rational> x, std::span<const Rational> value) {
@@ -232,10 +164,6 @@ PiecewiseLinear through_points(std::span<const Rational> x, std::span<const Rati
     }
   }
   return f;
-}
-
-Valley deepest_valley(const PiecewiseLinear& f, std::size_t first, std::size_t last) {
-  return Ascent(f, first, last).valley();
 }
 
 std::vector<LeastLine> as_maximum_of_minima(const PiecewiseLinear& f) {

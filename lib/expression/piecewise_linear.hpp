@@ -40,19 +40,4 @@ struct LeastLine {
 /// interval, or where the function does, so that intervals see how far it goes.
 [[nodiscard]] std::vector<LeastLine> as_maximum_of_minima(const PiecewiseLinear& f);
 
-/// A part that turns, though it is least at one end and greatest at the other, cut at a valley: on the way
-/// from the least end the function falls nowhere as far as to there. So all that follows is at least as high,
-/// and the part is the maximum of what lies on both sides, if the side that follows goes on downward before
-/// the valley.
-struct Valley {
-  std::size_t place = 0;       ///< number of its end
-  PiecewiseLinear side;        ///< what follows, with its first line going on before the valley
-  bool is_flat_after = false;  ///< the last line of the side, or the first, says what lies beyond the part
-  std::optional<Line> below;   ///< where that line is not below all that lies between it and the valley
-};
-
-/// @pre unchecked: between these two ends `f` neither rises nor falls everywhere, and is nowhere as small or
-/// as great as at them.
-[[nodiscard]] Valley deepest_valley(const PiecewiseLinear& f, std::size_t first, std::size_t last);
-
 }  // namespace coordreq

@@ -91,7 +91,7 @@ class TableWriter {
 
   /// The function between two of its ends, and beyond these as there. Where it is greatest within, it is the
   /// minimum of its two sides, and where it is least within, their maximum: ranges of both sides then give
-  /// the range of the whole. Else deepest_valley() parts it.
+  /// the range of the whole.
   Index part(const PiecewiseLinear& f, std::size_t first, std::size_t last, Index x) {
     if (!rises_or_falls(f, first, last)) {
       const auto value = [&](std::size_t i) { return f.at_end(i); };
@@ -104,23 +104,12 @@ class TableWriter {
           if (value(i) == level) return tape_.apply(op, part(f, first, i, x), part(f, i, last, x));
         }
       }
-      return cut_at(deepest_valley(f, first, last), f, first, last, x);
     }
     const PiecewiseLinear own = flat_beyond(f, first, last);
     std::optional<Index> greatest;
     for (const LeastLine& minimum : as_maximum_of_minima(own))
       greatest = joined(Operator::maximum, greatest, least(own, minimum, x));
     return *greatest;
-  }
-
-  Index cut_at(const Valley& valley, const PiecewiseLinear& f, std::size_t first, std::size_t last, Index x) {
-    const bool rises = f.at_end(first) < f.at_end(last);
-    const Index before = rises ? part(f, first, valley.place, x) : part(f, valley.place, last, x);
-    const std::size_t flat = valley.is_flat_after ? 1 : 0;
-    const std::size_t lines = valley.side.lines.size();
-    Index side = rises ? part(valley.side, 0, lines - flat, x) : part(valley.side, flat, lines, x);
-    if (valley.below) side = tape_.apply(Operator::minimum, side, line(*valley.below, x));
-    return tape_.apply(Operator::maximum, before, side);
   }
 
   Index least(const PiecewiseLinear& f, const LeastLine& minimum, Index x) {

@@ -37,8 +37,8 @@ struct TableLookup {
 /// of the grammar. A sum of kinks would be shorter, but intervals would not see that its terms belong
 /// together. So a part that rises or falls is a maximum of minima of its lines (Tarela and Martinez 1999),
 /// and parts are joined by minimum at a peak and by maximum at a valley. Intervals then enclose the range
-/// exactly, and at a kink the derivatives are the hull of the slopes that meet there. Two opposite slopes are
-/// an `abs`.
+/// exactly if the function rises, falls or turns once, and at a kink the derivatives are the hull of the
+/// slopes that meet there. Two opposite slopes are an `abs`.
 /// @pre at least two x, ascending; as many values
 [[nodiscard]] TableFunction linear_table(std::span<const Rational> x, std::span<const Rational> value,
                                          BeyondAxis beyond);

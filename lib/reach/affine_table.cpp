@@ -222,7 +222,7 @@ class TableBuilder {
       }
       return cells_meeting(target, spec_.abstraction.cells, lower, upper, attained);
     });
-    if (tube_ != nullptr && !target.periodic()) narrow_tubes(*row, base);
+    if (tube_ != nullptr && !target.periodic() && (row->is_stopped || row->rate)) narrow_tubes(*row, base);
     return true;
   }
 
@@ -239,9 +239,9 @@ class TableBuilder {
         slowest += part.slowest;
         fastest += part.fastest;
       }
-      const bool is_monotone =
-          row.rate && (row.rate->first + slowest >= 0 || row.rate->second + fastest <= 0);
-      if (!row.is_stopped && !is_monotone) return std::nullopt;
+      const bool has_direction =
+          row.is_stopped || row.rate->first + slowest >= 0 || row.rate->second + fastest <= 0;
+      if (!has_direction) return std::nullopt;
       const Piece start =
           post_.pieces_of(state_, cell[static_cast<std::size_t>(own - moving.begin())]).front();
       return cells_covering(grid_[state_], std::min(start.lower, lower), std::max(start.upper, upper));

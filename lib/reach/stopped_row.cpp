@@ -96,6 +96,7 @@ class RowMaker {
       if (stops(j) && !is_integrator(j)) return std::nullopt;
     }
     const auto own = std::find(moving_.begin(), moving_.end(), static_cast<std::int32_t>(state_));
+    REQUIRES(own != moving_.end());
     own_ = static_cast<std::size_t>(own - moving_.begin());
     StoppedRow row{.parts = {}, .lower = drift(), .upper = drift(), .is_stopped = stops(own_)};
     if (forms_[own_]->lower == forms_[own_]->upper && !is_moved_by_free_states())
@@ -213,6 +214,7 @@ class RowMaker {
     }
     const Integrator integrator(dimension(j), tau, std::move(kernel));
     const Integrator itself(dimension(j), tau, std::nullopt);
+    const Rational factor = slope(j), down = rate(j, false), up = rate(j, true);
     const Rational fastest = rate(j, rises);
     const Rational slowest = rate(j, !rises);
     const Rational reach = dimension(j).radius() + dimension(j).measurement_error;
@@ -227,8 +229,9 @@ class RowMaker {
           StoppedRow::Part{.lower = integrator.from(low, slowest),
                            .upper = integrator.from(high, fastest),
                            .attained = !rises || is_cut || integrator.is_flat_below(high, fastest)});
-      const Rational least = slope(j) * std::min(place.lower, itself.from(place.lower, rate(j, false)));
-      const Rational most = slope(j) * std::max(place.upper, itself.from(place.upper, rate(j, true)));
+      if (factor == 0) continue;
+      const Rational least = factor * std::min(place.lower, itself.from(place.lower, down));
+      const Rational most = factor * std::max(place.upper, itself.from(place.upper, up));
       part.slowest = std::min(least, most);
       part.fastest = std::max(least, most);
     }

@@ -120,7 +120,7 @@ TEST(TableFunction, IsExactAtRationalPoints) {
   }));
 }
 
-TEST(TableFunction, IntervalsGiveTheExactRange) {
+TEST(TableFunction, IntervalsEncloseItsRange) {
   EXPECT_TRUE(rc::check([] {
     const Rationals x = random_axis(12);
     const Rationals value = random_values(x.size());
@@ -131,6 +131,29 @@ TEST(TableFunction, IntervalsGiveTheExactRange) {
     const RationalInterval all = true_range(x, value, from, to);
     const RationalInterval range = range_of(program, from, to);
     RC_ASSERT(range.total);
+    RC_ASSERT(range.lower <= all.lower);
+    RC_ASSERT(range.upper == all.upper);
+  }));
+}
+
+TEST(TableFunction, IntervalsGiveTheExactRangeWhereItTurnsAtMostOnce) {
+  EXPECT_TRUE(rc::check([] {
+    const Rationals x = random_axis(12);
+    Rationals value = random_values(x.size());
+    const auto turn = value.begin() + pick(0, static_cast<int>(x.size()));
+    std::sort(value.begin(), turn);
+    std::sort(turn, value.end(), std::greater<>());
+    if (turn != value.begin() && turn != value.end() && pick(0, 1) == 0) std::iter_swap(turn - 1, turn);
+    std::sort(value.begin(), turn);
+    std::sort(turn, value.end(), std::greater<>());
+    const int sign = pick(0, 1) == 0 ? 1 : -1;
+    for (Rational& number : value) number *= sign;
+    const TableFunction table = linear_table(x, value, BeyondAxis::clamp);
+    const Program program = link_table("t(x)", table);
+    const Rational from = random_number(-6, 12);
+    const Rational to = from + random_number(0, 6);
+    const RationalInterval all = true_range(x, value, from, to);
+    const RationalInterval range = range_of(program, from, to);
     RC_ASSERT(range.lower == all.lower);
     RC_ASSERT(range.upper == all.upper);
   }));

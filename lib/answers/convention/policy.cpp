@@ -1,4 +1,3 @@
-
 #include "answers/convention/answer.hpp"
 
 #include <fmt/format.h>

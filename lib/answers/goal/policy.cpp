@@ -1,4 +1,3 @@
-
 #include "answers/goal/answer.hpp"
 
 #include "answers/goal/arrival.hpp"

@@ -1,4 +1,3 @@
-
 #include "answers/goal/fields.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/layers/delay_layers.hpp"

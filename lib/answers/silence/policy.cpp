@@ -1,4 +1,3 @@
-
 #include "answers/silence/answer.hpp"
 
 #include <memory>
