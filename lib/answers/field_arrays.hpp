@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "answers/convention/convention_freedom.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/field.hpp"
 #include "answers/last_value_cache.hpp"
-#include "answers/layers/delay_layers.hpp"
 #include "engine/level_map.hpp"
 #include "model/cell_order.hpp"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "base/requires.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "cell/action_choice.hpp"
 
 namespace coordreq {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "answers/analysis_context.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/invariance/invariance.hpp"
-#include "answers/layers/delay_layers.hpp"
 #include "base/thread_team.hpp"
 #include "results/results_reader.hpp"
 

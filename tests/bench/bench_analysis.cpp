@@ -9,10 +9,10 @@
 #include <string>
 
 #include "analysis/analyze.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/invariance/safe_set.hpp"
-#include "answers/layers/delay_layers.hpp"
-#include "answers/layers/projections.hpp"
+#include "choices/projections.hpp"
 #include "engine/join_rows.hpp"
 #include "engine/tiles.hpp"
 #include "model/model.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "answers/goal/arrival.hpp"
-#include "answers/layers/independent_actions.hpp"
+#include "choices/independent_actions.hpp"
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
 #include "reach/table_shapes.hpp"

@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "answers/countdown/leaving_cells.hpp"
 #include "answers/goal/answer.hpp"
 #include "answers/goal/arrival.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/layers/fields.hpp"
-#include "answers/layers/leaving_cells.hpp"
 #include "answers/step_codes.hpp"
 #include "cell/margin.hpp"
 #include "cell/simulate_runs.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "answers/layers/independent_actions.hpp"
+#include "choices/independent_actions.hpp"
 #include "engine/join_rows.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "answers/layers/leaving_cells.hpp"
+#include "answers/countdown/leaving_cells.hpp"
 #include "answers/step_codes.hpp"
 #include "model/input_class.hpp"
 #include "spec/read_spec.hpp"

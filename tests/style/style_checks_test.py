@@ -62,14 +62,14 @@ class StyleChecks(unittest.TestCase):
             "lib/answers/checking/claims.hpp",
             '#include "answers/requirements/result_requirement.hpp"\n#include "engine/packed_pairs.hpp"\n',
         )
-        self.write("lib/answers/layers/answer.cpp", '#include "answers/layers/delay_layers.hpp"\n')
+        self.write("lib/answers/layers/answer.cpp", '#include "answers/countdown/delay_layers.hpp"\n')
         self.assertEqual(style_checks.checks_stand_alone(self.root), [])
 
     def test_check_that_includes_what_computes_is_found(self):
         self.write_rooms_of_answers()
         self.write(
             "lib/answers/layers/check.cpp",
-            '#include "answers/layers/delay_layers.hpp"\n#include "engine/wave.hpp"\n',
+            '#include "answers/countdown/delay_layers.hpp"\n#include "engine/wave.hpp"\n',
         )
         self.write("lib/answers/checking/posts.hpp", '#include "reach/abstraction.hpp"\n')
         self.write("lib/engine/packed_pairs.hpp", '#include "engine/row_engine.hpp"\n')
@@ -77,7 +77,7 @@ class StyleChecks(unittest.TestCase):
             style_checks.checks_stand_alone(self.root),
             [
                 "lib/answers/checking/posts.hpp:1: a check may not include reach/abstraction.hpp",
-                "lib/answers/layers/check.cpp:1: a check may not include answers/layers/delay_layers.hpp",
+                "lib/answers/layers/check.cpp:1: a check may not include answers/countdown/delay_layers.hpp",
                 "lib/answers/layers/check.cpp:2: a check may not include engine/wave.hpp",
                 "lib/engine/packed_pairs.hpp:1: a check may not include engine/row_engine.hpp",
             ],

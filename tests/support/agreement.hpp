@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/safe_set.hpp"
+#include "choices/action_bits.hpp"
 #include "support/fast_engine.hpp"
 #include "support/members.hpp"
 #include "support/plain_engine.hpp"

@@ -6,10 +6,10 @@
 
 #include "answers/answers.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/invariance/controller.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
 #include "answers/step_codes.hpp"
+#include "choices/controller.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"

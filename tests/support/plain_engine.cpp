@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/invariance/safe_tubes.hpp"
-#include "answers/layers/delay_layers.hpp"
 #include "answers/step_codes.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"

@@ -6,7 +6,7 @@
 
 #include "answers/answer.hpp"
 #include "answers/blind/silent_table.hpp"
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 
 namespace coordreq {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "answers/layers/independent_actions.hpp"
 #include "base/index.hpp"
+#include "choices/independent_actions.hpp"
 #include "engine/find_levels.hpp"
 #include "engine/level_messages.hpp"
 

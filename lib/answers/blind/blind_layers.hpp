@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "answers/blind/silent_table.hpp"
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "engine/row_hull.hpp"
 
 namespace coordreq {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "answers/answers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/field.hpp"
-#include "answers/layers/delay_layers.hpp"
 #include "base/thread_team.hpp"
 #include "spec/spec_types.hpp"
 

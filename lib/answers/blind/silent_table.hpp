@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "answers/blind/fibres.hpp"
-#include "answers/layers/projections.hpp"
 #include "base/requires.hpp"
 #include "base/thread_team.hpp"
+#include "choices/projections.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_map.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "answers/coalition/coalition_cost.hpp"
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_map.hpp"

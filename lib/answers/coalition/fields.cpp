@@ -5,10 +5,10 @@
 
 #include "answers/coalition/answer.hpp"
 #include "answers/coalition/coalition_cost.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/layers/delay_layers.hpp"
 #include "answers/step_codes.hpp"
 #include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"

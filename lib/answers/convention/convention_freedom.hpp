@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "answers/invariance/controller.hpp"
 #include "base/zeroed_array.hpp"
+#include "choices/controller.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/tiles.hpp"
 

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "answers/invariance/controller_row.hpp"
 #include "base/requires.hpp"
+#include "choices/controller_row.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/tuple_walk.hpp"

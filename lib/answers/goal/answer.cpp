@@ -6,17 +6,17 @@
 #include <optional>
 
 #include "answers/checking/all_checks.hpp"
+#include "answers/countdown/best_cells.hpp"
+#include "answers/countdown/leaving_cells.hpp"
 #include "answers/goal/approach_layers.hpp"
 #include "answers/goal/arrival.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/layers/best_cells.hpp"
-#include "answers/layers/leaving_cells.hpp"
-#include "answers/layers/projection_bytes.hpp"
 #include "answers/work_json.hpp"
 #include "base/grouped.hpp"
+#include "choices/projection_bytes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "answers/answer.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/goal/lasting_goal.hpp"
 #include "answers/goal/progress_engine.hpp"
-#include "answers/invariance/controller.hpp"
-#include "answers/layers/delay_layers.hpp"
+#include "choices/controller.hpp"
 #include "engine/wave.hpp"
 
 namespace coordreq {

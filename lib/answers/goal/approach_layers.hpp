@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/goal/progress_engine.hpp"
-#include "answers/layers/delay_layers.hpp"
-#include "answers/layers/projections.hpp"
+#include "choices/projections.hpp"
 
 namespace coordreq {
 

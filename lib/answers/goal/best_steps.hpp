@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "answers/goal/lasting_goal.hpp"
-#include "answers/invariance/joint_actions.hpp"
 #include "base/thread_team.hpp"
+#include "choices/joint_actions.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_rows.hpp"
 #include "engine/post_reader.hpp"

@@ -3,15 +3,15 @@
 #include <memory>
 #include <utility>
 
+#include "answers/countdown/trigger_table.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/goal/answer.hpp"
 #include "answers/goal/arrival.hpp"
-#include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/fields.hpp"
-#include "answers/layers/trigger_table.hpp"
 #include "answers/step_codes.hpp"
+#include "choices/action_bits.hpp"
 #include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"

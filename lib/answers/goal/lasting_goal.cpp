@@ -8,7 +8,7 @@
 
 #include "answers/goal/arrival.hpp"
 #include "answers/goal/best_steps.hpp"
-#include "answers/invariance/joint_actions.hpp"
+#include "choices/joint_actions.hpp"
 #include "engine/find_levels.hpp"
 #include "engine/level_messages.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "answers/layers/leaving_cells.hpp"
+#include "answers/countdown/leaving_cells.hpp"
 #include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 

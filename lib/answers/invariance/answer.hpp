@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "answers/answer.hpp"
-#include "answers/invariance/controller.hpp"
 #include "answers/invariance/invariance.hpp"
+#include "choices/controller.hpp"
 
 namespace coordreq {
 

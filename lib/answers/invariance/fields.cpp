@@ -4,8 +4,8 @@
 
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
-#include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/answer.hpp"
+#include "choices/action_bits.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "answers/invariance/joint_actions.hpp"
+#include "choices/joint_actions.hpp"
 #include "engine/find_levels.hpp"
 
 namespace coordreq {

@@ -5,15 +5,15 @@
 #include <optional>
 
 #include "answers/checking/all_checks.hpp"
+#include "answers/countdown/best_cells.hpp"
+#include "answers/countdown/leaving_cells.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
-#include "answers/layers/best_cells.hpp"
 #include "answers/layers/fields.hpp"
-#include "answers/layers/leaving_cells.hpp"
-#include "answers/layers/projection_bytes.hpp"
 #include "answers/layers/refinement.hpp"
 #include "answers/layers/stored_partition.hpp"
 #include "answers/work_json.hpp"
+#include "choices/projection_bytes.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 

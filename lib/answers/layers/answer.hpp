@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "answers/answer.hpp"
-#include "answers/layers/delay_layers.hpp"
-#include "answers/layers/projections.hpp"
+#include "answers/countdown/delay_layers.hpp"
+#include "choices/projections.hpp"
 
 namespace coordreq {
 

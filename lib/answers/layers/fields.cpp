@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <memory>
 
+#include "answers/countdown/delay_layers.hpp"
+#include "answers/countdown/trigger_table.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
-#include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/last_value_cache.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/layers/delay_layers.hpp"
-#include "answers/layers/trigger_table.hpp"
 #include "answers/step_codes.hpp"
+#include "choices/action_bits.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 

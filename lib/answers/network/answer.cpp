@@ -7,11 +7,11 @@
 #include "answers/checking/all_checks.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
-#include "answers/layers/projection_bytes.hpp"
 #include "answers/network/fields.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/network/rule_modes.hpp"
 #include "answers/work_json.hpp"
+#include "choices/projection_bytes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

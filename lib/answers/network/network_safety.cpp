@@ -5,9 +5,9 @@
 #include <memory>
 #include <utility>
 
-#include "answers/layers/independent_actions.hpp"
 #include "answers/network/careful_actions.hpp"
 #include "answers/network/mode_targets.hpp"
+#include "choices/independent_actions.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "answers/invariance/controller.hpp"
 #include "base/thread_team.hpp"
+#include "choices/controller.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/row_hull.hpp"
 #include "engine/wave.hpp"

@@ -1,11 +1,11 @@
 #include "answers/goal/fields.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/field_parts.hpp"
-#include "answers/layers/delay_layers.hpp"
-#include "answers/layers/forbidden_choices.hpp"
 #include "answers/requirements/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "answers/step_codes.hpp"
 #include "base/thread_team.hpp"
+#include "choices/forbidden_choices.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/sight.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/requirements/region.hpp"
 #include "answers/risk/risk.hpp"
 #include "base/thread_team.hpp"

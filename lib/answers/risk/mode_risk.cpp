@@ -1,7 +1,7 @@
 #include "answers/risk/mode_risk.hpp"
 
-#include "answers/invariance/joint_actions.hpp"
-#include "answers/layers/independent_actions.hpp"
+#include "choices/independent_actions.hpp"
+#include "choices/joint_actions.hpp"
 
 namespace coordreq {
 namespace {

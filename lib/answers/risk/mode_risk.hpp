@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "answers/layers/projections.hpp"
+#include "choices/projections.hpp"
 #include "engine/post_reader.hpp"
 #include "model/input_class.hpp"
 

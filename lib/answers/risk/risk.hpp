@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "answers/invariance/controller.hpp"
 #include "answers/risk/expected_risk.hpp"
 #include "base/thread_team.hpp"
+#include "choices/controller.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_rows.hpp"
 #include "engine/row_hull.hpp"

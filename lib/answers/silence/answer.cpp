@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "answers/checking/all_checks.hpp"
+#include "answers/countdown/best_cells.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/layers/best_cells.hpp"
-#include "answers/layers/projection_bytes.hpp"
 #include "answers/silence/fields.hpp"
 #include "answers/silence/silent_actions.hpp"
 #include "answers/work_json.hpp"
 #include "base/grouped.hpp"
+#include "choices/projection_bytes.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/silence.hpp"
 #include "spec/wording.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "answers/answer.hpp"
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 
 namespace coordreq {
 

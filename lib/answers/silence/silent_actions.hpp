@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "answers/answers.hpp"
-#include "answers/layers/projections.hpp"
 #include "base/thread_team.hpp"
+#include "choices/projections.hpp"
 #include "engine/engine_sizes.hpp"
 #include "engine/pair_table.hpp"
 

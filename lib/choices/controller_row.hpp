@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "answers/invariance/controller.hpp"
 #include "base/requires.hpp"
+#include "choices/controller.hpp"
 #include "engine/level_map.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/tuple_walk.hpp"

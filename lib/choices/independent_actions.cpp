@@ -1,4 +1,4 @@
-#include "answers/layers/independent_actions.hpp"
+#include "choices/independent_actions.hpp"
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
-#include "answers/layers/projections.hpp"
+#include "choices/projections.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <deque>
 
-#include "answers/invariance/controller_row.hpp"
-#include "answers/layers/forbidden_choices.hpp"
-#include "answers/layers/pair_projection.hpp"
 #include "base/requires.hpp"
+#include "choices/controller_row.hpp"
+#include "choices/forbidden_choices.hpp"
+#include "choices/pair_projection.hpp"
 #include "engine/level_map.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/tuple_walk.hpp"

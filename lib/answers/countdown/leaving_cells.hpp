@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "answers/answers.hpp"
-#include "answers/layers/delay_layers.hpp"
-#include "answers/layers/projections.hpp"
+#include "answers/countdown/delay_layers.hpp"
+#include "choices/projections.hpp"
 
 namespace coordreq {
 

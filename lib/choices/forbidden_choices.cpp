@@ -1,4 +1,4 @@
-#include "answers/layers/forbidden_choices.hpp"
+#include "choices/forbidden_choices.hpp"
 
 #include <algorithm>
 #include <cstdint>

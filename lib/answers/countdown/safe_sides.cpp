@@ -1,4 +1,4 @@
-#include "answers/layers/safe_sides.hpp"
+#include "answers/countdown/safe_sides.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/layers/projections.hpp"
+#include "choices/projections.hpp"
 #include "engine/tuple_walk.hpp"
 #include "engine/wave.hpp"
 

@@ -1,8 +1,8 @@
-#include "answers/invariance/action_bits.hpp"
+#include "choices/action_bits.hpp"
 
 #include <algorithm>
 
-#include "answers/invariance/controller_row.hpp"
+#include "choices/controller_row.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/level_map.hpp"
 #include "engine/level_rows.hpp"

@@ -1,4 +1,4 @@
-#include "answers/layers/trigger_table.hpp"
+#include "answers/countdown/trigger_table.hpp"
 
 #include "answers/step_codes.hpp"
 #include "base/requires.hpp"

@@ -1,4 +1,4 @@
-#include "answers/layers/pair_projection.hpp"
+#include "choices/pair_projection.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "answers/layers/outward_runs.hpp"
+#include "answers/countdown/outward_runs.hpp"
 
 #include <bit>
 #include <numeric>

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "answers/analysis_context.hpp"
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "base/json.hpp"
 
 namespace coordreq {

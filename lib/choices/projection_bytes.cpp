@@ -1,8 +1,8 @@
-#include "answers/layers/projection_bytes.hpp"
+#include "choices/projection_bytes.hpp"
 
 #include <algorithm>
 
-#include "answers/layers/forbidden_choices.hpp"
+#include "choices/forbidden_choices.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

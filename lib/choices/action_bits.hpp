@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/invariance/controller.hpp"
+#include "choices/controller.hpp"
 #include "engine/action_groups.hpp"
 
 namespace coordreq {

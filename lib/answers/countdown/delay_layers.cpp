@@ -1,9 +1,9 @@
-#include "answers/layers/delay_layers.hpp"
+#include "answers/countdown/delay_layers.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "answers/layers/independent_actions.hpp"
+#include "choices/independent_actions.hpp"
 #include "engine/find_levels.hpp"
 
 namespace coordreq {

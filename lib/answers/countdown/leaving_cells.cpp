@@ -1,4 +1,4 @@
-#include "answers/layers/leaving_cells.hpp"
+#include "answers/countdown/leaving_cells.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -8,12 +8,12 @@
 #include <memory>
 #include <utility>
 
+#include "answers/countdown/outward_runs.hpp"
+#include "answers/countdown/safe_sides.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/layers/independent_actions.hpp"
-#include "answers/layers/outward_runs.hpp"
-#include "answers/layers/safe_sides.hpp"
 #include "base/index.hpp"
 #include "base/requires.hpp"
+#include "choices/independent_actions.hpp"
 #include "engine/find_levels.hpp"
 #include "engine/level_messages.hpp"
 #include "engine/post_reader.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "answers/analysis_context.hpp"
-#include "answers/layers/safe_sides.hpp"
+#include "answers/countdown/safe_sides.hpp"
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 

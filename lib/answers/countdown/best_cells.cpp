@@ -1,4 +1,4 @@
-#include "answers/layers/best_cells.hpp"
+#include "answers/countdown/best_cells.hpp"
 
 #include <algorithm>
 #include <cstring>

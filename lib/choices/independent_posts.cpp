@@ -1,4 +1,4 @@
-#include "answers/layers/independent_posts.hpp"
+#include "choices/independent_posts.hpp"
 
 #include <algorithm>
 
