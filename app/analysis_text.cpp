@@ -1,4 +1,4 @@
-#include "app/analysis_text.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,6 @@
 
 #include "answers/plan.hpp"
 #include "app/answers/all.hpp"
-#include "app/guarantee_line.hpp"
-#include "app/headline.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
 #include "base/requires.hpp"

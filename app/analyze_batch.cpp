@@ -9,7 +9,7 @@
 #include "app/batch_plan.hpp"
 #include "app/interrupt.hpp"
 #include "app/junit_report.hpp"
-#include "app/print_warnings.hpp"
+#include "app/print.hpp"
 #include "app/standard_streams.hpp"
 #include "base/timer.hpp"
 #include "spec/problem_spec.hpp"

@@ -7,7 +7,7 @@
 
 #include "analysis/checkpoint_options.hpp"
 #include "app/options.hpp"
-#include "app/progress_options.hpp"
+#include "app/progress_display.hpp"
 #include "app/sweep.hpp"
 #include "base/error.hpp"
 #include "ranks/ranks.hpp"

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/files_in_use.hpp"
 #include "app/load_spec.hpp"
 #include "app/text.hpp"
-#include "app/unasked_output.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

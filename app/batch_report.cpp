@@ -6,9 +6,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "app/analysis_text.hpp"
 #include "app/answers/all.hpp"
 #include "app/render.hpp"
+#include "app/reports.hpp"
 #include "app/requirement_text.hpp"
 #include "base/json.hpp"
 #include "spec/problem_spec.hpp"

@@ -1,11 +1,11 @@
-#include "app/compare_report.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/render.hpp"
 #include "cell/state_query.hpp"
 #include "numeric/rational.hpp"

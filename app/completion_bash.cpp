@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "app/completion.hpp"
+#include "app/program_help.hpp"
 
 namespace coordreq {
 namespace {

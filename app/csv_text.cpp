@@ -1,4 +1,4 @@
-#include "app/csv_text.hpp"
+#include "app/render.hpp"
 
 #include <algorithm>
 

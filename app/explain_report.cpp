@@ -1,4 +1,4 @@
-#include "app/explain_report.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "answers/one_cell/action_words.hpp"
 #include "answers/requirements/answer.hpp"
 #include "answers/step_codes.hpp"
-#include "app/query_values.hpp"
+#include "app/query_report.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
 #include "spec/problem_spec.hpp"

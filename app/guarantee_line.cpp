@@ -1,4 +1,4 @@
-#include "app/guarantee_line.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/headline.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/ignored_columns.hpp"
+#include "app/print.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/requirements/answer.hpp"
-#include "app/csv_text.hpp"
 #include "app/render.hpp"
 #include "spec/problem_spec.hpp"
 

@@ -9,11 +9,11 @@
 #include <sstream>
 #include <system_error>
 
-#include "app/analysis_text.hpp"
+#include "app/reports.hpp"
 #include "app/requirement_text.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
-#include "results/whole_file.hpp"
+#include "results/output_file.hpp"
 
 namespace coordreq {
 namespace {

@@ -1,11 +1,11 @@
-#include "app/least_report.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "answers/step_codes.hpp"
-#include "app/query_values.hpp"
+#include "app/query_report.hpp"
 #include "app/render.hpp"
 #include "spec/problem_spec.hpp"
 

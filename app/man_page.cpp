@@ -1,4 +1,4 @@
-#include "app/man_page.hpp"
+#include "app/program_help.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/memory_limit.hpp"
+#include "app/option_values.hpp"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "app/nearest_region.hpp"
+#include "app/reports.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/require_report.hpp"
 #include "export/tolerance_frontier.hpp"
 #include "results/results_reader.hpp"
 #include "spec/problem_spec.hpp"

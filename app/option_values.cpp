@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "cell/state_text.hpp"
 #include "numeric/rational.hpp"
-#include "spec/time_text.hpp"
+#include "spec/units.hpp"
 
 namespace coordreq {
 

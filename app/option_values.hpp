@@ -2,12 +2,14 @@
 
 #include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cell/simulate.hpp"
+#include "spec/spec_types.hpp"
 
 // Readers of the values of options. Every reader throws UsageError with what was found, what was
 // expected, and the option as the place.
@@ -72,5 +74,21 @@ struct OneOf {
 
 /// "w1=0.1,w2=1/3": values by name, in the order given; each once.
 [[nodiscard]] NamedValues named_values(const std::string& text, const std::string& option);
+
+/// Bounds of a number of steps, and how a time becomes steps.
+struct StepBounds {
+  std::int64_t least = 1;
+  bool is_upper_limit = false;  ///< then a time is rounded down to periods, else up
+};
+
+/// "4" steps, or "2 s", "500ms", "1h": a time, in periods of the spec; "2.5 round" in a unit of the spec that
+/// is no unit of time.
+/// @throws UsageError naming the option
+[[nodiscard]] std::int64_t steps_or_time(const std::string& text, const DynamicsSpec& dynamics,
+                                         const std::string& option, const StepBounds& bounds = {});
+
+/// The memory that this process may use, in bytes: what the machine has, or the lowest limit of the control
+/// groups (containers) it runs in if that is lower. Nothing if the system does not tell.
+[[nodiscard]] std::optional<std::uint64_t> available_memory();
 
 }  // namespace coordreq

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"

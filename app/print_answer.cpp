@@ -1,4 +1,4 @@
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 
 #include "app/standard_streams.hpp"
 #include "spec/problem_spec.hpp"

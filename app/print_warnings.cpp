@@ -1,4 +1,4 @@
-#include "app/print_warnings.hpp"
+#include "app/print.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
 class App;
 }
-
+/// Scripts that make a shell complete commands, options, their words, and files by their kind. What they
+/// offer is in the help that they are made of; nothing is asked of the program while the user types.
 namespace coordreq {
 
 /// The help on the value of an option or an argument.
@@ -80,5 +82,17 @@ inline constexpr ExitCodeHelp kExitCodes[] = {
     {70, "a bug in coordreq"},
     {130, "interrupted"},
 };
+
+/// For bash 4 or newer; needs no package bash-completion.
+[[nodiscard]] std::string bash_completion(const ProgramHelp& help);
+
+/// For zsh: to be found as _coordreq in $fpath, or to be evaluated after compinit.
+[[nodiscard]] std::string zsh_completion(const ProgramHelp& help);
+
+/// For fish 3 or newer.
+[[nodiscard]] std::string fish_completion(const ProgramHelp& help);
+
+/// The page coordreq(1) for man: roff with the macros of man(7), from the same descriptions as `--help`.
+[[nodiscard]] std::string man_page(const ProgramHelp& help, std::string_view version);
 
 }  // namespace coordreq

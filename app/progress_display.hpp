@@ -1,13 +1,30 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "analysis/progress.hpp"
 #include "analysis/time_left.hpp"
-#include "app/progress_options.hpp"
+#include "app/options.hpp"
 
 namespace coordreq {
+
+enum class ProgressMode : std::uint8_t {
+  automatic,  ///< the bar, a line a minute where there is no terminal; but for --quiet
+  bar,        ///< on a terminal
+  log,
+  none,
+};
+
+/// --progress and --progress-every.
+struct ProgressOptions {
+  ProgressMode mode = ProgressMode::automatic;
+  std::optional<double> every_seconds = {};  ///< between two lines; nothing: 10 of a log, else 60
+};
+
+void declare_progress(Options& options, ProgressOptions& progress);
 
 /// Shows progress on standard error: as one line that is rewritten at most ten times a second and
 /// gone in the end, as a log, or where there is no terminal as a line a minute. Uses no colour, so NO_COLOR

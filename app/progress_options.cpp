@@ -1,4 +1,4 @@
-#include "app/progress_options.hpp"
+#include "app/progress_display.hpp"
 
 #include "app/option_values.hpp"
 #include "base/error.hpp"

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "answers/invariance/fields.hpp"
-#include "app/csv_text.hpp"
+#include "answers/paths.hpp"
 #include "app/query_report.hpp"
+#include "app/render.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

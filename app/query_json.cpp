@@ -1,14 +1,13 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/field_parts.hpp"
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/plan.hpp"
 #include "answers/step_codes.hpp"
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/query_report.hpp"
-#include "app/query_values.hpp"
 #include "base/json.hpp"
-#include "model/outside_word.hpp"
+#include "model/outside.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -5,10 +5,9 @@
 #include <utility>
 
 #include "answers/plan.hpp"
-#include "app/guarantee_line.hpp"
 #include "app/query_report.hpp"
-#include "app/query_values.hpp"
 #include "app/render.hpp"
+#include "app/reports.hpp"
 #include "results/read_info.hpp"
 #include "spec/problem_spec.hpp"
 

@@ -1,4 +1,4 @@
-#include "app/query_values.hpp"
+#include "app/query_report.hpp"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,10 @@
 
 #include "app/text.hpp"
 #include "base/json.hpp"
+#include "results/results_reader.hpp"
 
 // The pieces of the texts of all commands: each text is rendered from the document that --json prints.
+// The pieces of answers in CSV.
 namespace coordreq {
 
 [[nodiscard]] std::int64_t number_of(const Json& json);
@@ -46,5 +48,12 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 /// A section for each member that a text has no words of its own for: numbers, texts and flags as they are.
 /// @param known members that it has words for
 [[nodiscard]] std::string others_text(const Json& document, const std::vector<std::string>& known);
+
+/// A number of steps, "inf" without end.
+[[nodiscard]] std::string csv_steps(std::int32_t steps);
+/// A column that is no state; states may have its name, and then it is "answer:NAME".
+[[nodiscard]] std::string answer_column(const std::string& name, const ResultsReader& results);
+/// A field as it stands in CSV (RFC 4180).
+[[nodiscard]] std::string csv_field(const std::string& text);
 
 }  // namespace coordreq

@@ -4,10 +4,9 @@
 #include <optional>
 
 #include "answers/plan.hpp"
-#include "app/analysis_text.hpp"
-#include "app/guarantee_line.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
+#include "app/reports.hpp"
 #include "app/text.hpp"
 #include "base/requires.hpp"
 #include "export/report_page.hpp"

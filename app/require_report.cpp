@@ -1,4 +1,4 @@
-#include "app/require_report.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/csv_text.hpp"
-#include "app/guarantee_line.hpp"
 #include "app/render.hpp"
 #include "spec/problem_spec.hpp"
 

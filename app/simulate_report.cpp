@@ -1,4 +1,4 @@
-#include "app/simulate_report.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/render.hpp"
 #include "app/report_error.hpp"
 #include "spec/problem_spec.hpp"

@@ -1,15 +1,14 @@
-#include "app/steps_or_time.hpp"
+#include "app/option_values.hpp"
 
 #include <fmt/format.h>
 
 #include <optional>
 
-#include "app/option_values.hpp"
 #include "app/text.hpp"
 #include "cell/state_text.hpp"
 #include "numeric/rational.hpp"
 #include "spec/system_spec.hpp"
-#include "spec/time_text.hpp"
+#include "spec/units.hpp"
 
 namespace coordreq {
 namespace {

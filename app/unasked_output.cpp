@@ -1,4 +1,4 @@
-#include "app/unasked_output.hpp"
+#include "app/files_in_use.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 #include "base/error.hpp"
 #include "results/sha256.hpp"
-#include "results/spec_digest.hpp"
+#include "results/version.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

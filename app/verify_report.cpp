@@ -1,10 +1,10 @@
-#include "app/verify_report.hpp"
+#include "app/reports.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/render.hpp"
 #include "app/standard_streams.hpp"
 

@@ -1,4 +1,4 @@
-#include "app/man_page.hpp"
+#include "app/program_help.hpp"
 #include "app/report_error.hpp"
 #include "app/standard_streams.hpp"
 #include "results/version.hpp"

@@ -2,8 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "answers/coalition/answer.hpp"
 #include "answers/coalition/coalition_cost.hpp"
-#include "answers/coalition/fields.hpp"
+#include "answers/paths.hpp"
 #include "app/answers/all.hpp"
 #include "app/report_html.hpp"
 #include "app/requirement_text.hpp"

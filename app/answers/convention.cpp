@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "app/analysis_text.hpp"
 #include "app/answers/all.hpp"
+#include "app/reports.hpp"
 
 namespace coordreq {
 namespace {

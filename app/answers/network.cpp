@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "answers/network/fields.hpp"
 #include "answers/network/network_meaning.hpp"
-#include "app/analysis_text.hpp"
+#include "answers/paths.hpp"
 #include "app/answers/all.hpp"
 #include "app/report_html.hpp"
+#include "app/reports.hpp"
 #include "app/text.hpp"
 #include "spec/problem_spec.hpp"
 

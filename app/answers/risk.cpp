@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "answers/risk/fields.hpp"
-#include "app/analysis_text.hpp"
+#include "answers/paths.hpp"
 #include "app/answers/all.hpp"
 #include "app/render.hpp"
 #include "app/report_html.hpp"
+#include "app/reports.hpp"
 #include "app/text.hpp"
 #include "spec/problem_spec.hpp"
 

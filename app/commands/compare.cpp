@@ -1,9 +1,9 @@
 #include <memory>
 
 #include "app/commands/all.hpp"
-#include "app/compare_report.hpp"
 #include "app/option_values.hpp"
 #include "app/progress_display.hpp"
+#include "app/reports.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "app/commands/all.hpp"
-#include "app/completion.hpp"
+#include "app/program_help.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 

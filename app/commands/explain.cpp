@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/all.hpp"
-#include "app/explain_report.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
+#include "app/reports.hpp"
 #include "cell/simulate.hpp"
 #include "cell/state_text.hpp"
 #include "results/results_reader.hpp"

@@ -4,13 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/plan.hpp"
-#include "app/analysis_text.hpp"
 #include "app/answers/all.hpp"
 #include "app/commands/all.hpp"
-#include "app/guarantee_line.hpp"
-#include "app/headline.hpp"
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/render.hpp"
+#include "app/reports.hpp"
 #include "base/json.hpp"
 #include "results/read_info.hpp"
 #include "results/results_reader.hpp"

@@ -9,7 +9,7 @@
 #include "app/atomic_file.hpp"
 #include "app/commands/all.hpp"
 #include "app/file_beside_program.hpp"
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/render.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"

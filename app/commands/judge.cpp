@@ -9,10 +9,9 @@
 #include <system_error>
 
 #include "app/commands/all.hpp"
-#include "app/ignored_columns.hpp"
 #include "app/judge_report.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/standard_streams.hpp"
 #include "cell/log_judge.hpp"
 #include "cell/simulate.hpp"

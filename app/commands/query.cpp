@@ -5,13 +5,11 @@
 #include <vector>
 
 #include "app/commands/all.hpp"
-#include "app/ignored_columns.hpp"
-#include "app/least_report.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
+#include "app/print.hpp"
 #include "app/query_report.hpp"
+#include "app/reports.hpp"
 #include "app/standard_streams.hpp"
-#include "app/steps_or_time.hpp"
 #include "cell/least_steps.hpp"
 #include "cell/simulate.hpp"
 #include "cell/state_query.hpp"

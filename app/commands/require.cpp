@@ -9,10 +9,9 @@
 
 #include "app/commands/all.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
-#include "app/require_report.hpp"
+#include "app/print.hpp"
+#include "app/reports.hpp"
 #include "app/standard_streams.hpp"
-#include "app/steps_or_time.hpp"
 #include "app/text.hpp"
 #include "cell/simulate.hpp"
 #include "cell/state_text.hpp"

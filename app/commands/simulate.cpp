@@ -8,8 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/option_values.hpp"
 #include "app/progress_display.hpp"
-#include "app/simulate_report.hpp"
-#include "app/steps_or_time.hpp"
+#include "app/reports.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -4,7 +4,7 @@
 #include "app/commands/all.hpp"
 #include "app/option_values.hpp"
 #include "app/progress_display.hpp"
-#include "app/verify_report.hpp"
+#include "app/reports.hpp"
 #include "verify/verify_file.hpp"
 
 namespace coordreq {

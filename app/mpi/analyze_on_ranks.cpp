@@ -1,4 +1,4 @@
-#include "app/mpi/analyze_on_ranks.hpp"
+#include "app/mpi/on_ranks.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -10,8 +10,6 @@
 #include "app/analyze_run.hpp"
 #include "app/command_line.hpp"
 #include "app/load_spec.hpp"
-#include "app/mpi/batch_on_ranks.hpp"
-#include "app/mpi/text_messages.hpp"
 #include "app/option_values.hpp"
 #include "app/standard_streams.hpp"
 #include "spec/read_spec.hpp"

@@ -1,4 +1,4 @@
-#include "app/mpi/batch_on_ranks.hpp"
+#include "app/mpi/on_ranks.hpp"
 
 #include <chrono>
 #include <memory>
@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "app/interrupt.hpp"
-#include "app/mpi/text_messages.hpp"
 #include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/spec_place.hpp"

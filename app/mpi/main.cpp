@@ -1,8 +1,8 @@
 #include <csignal>
 
 #include "app/interrupt.hpp"
-#include "app/mpi/analyze_on_ranks.hpp"
 #include "app/mpi/mpi_ranks.hpp"
+#include "app/mpi/on_ranks.hpp"
 #include "app/report_error.hpp"
 #include "app/standard_streams.hpp"
 

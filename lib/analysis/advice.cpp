@@ -4,9 +4,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "analysis/look_ahead.hpp"
-#include "analysis/standing.hpp"
-#include "analysis/unseen_motion.hpp"
 #include "answers/context/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/invariance.hpp"

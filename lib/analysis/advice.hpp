@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "analysis/motion.hpp"
+#include "answers/analysis_context.hpp"
 #include "answers/answers.hpp"
 #include "answers/warning.hpp"
 #include "base/json.hpp"
 #include "base/thread_team.hpp"
+#include "model/model.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -52,5 +57,56 @@ namespace coordreq {
 
 /// A list of objects with `kind`, `place` and `message`.
 [[nodiscard]] Json warnings_json(const Warnings& warnings);
+
+/// The number of pairs of a safe cell and a joint input that are blocked at a side of the domain.
+struct BlockedPairs {
+  std::int64_t pairs = 0;
+  bool is_all = true;  ///< else there may be more: the search was broken off after some millions
+};
+
+/// @param dimension of the grid of the abstraction, and its side
+/// @param may_leave by own index: false where no post goes beyond that side
+/// @pre the context is set up
+[[nodiscard]] BlockedPairs count_blocked(const AnalysisContext& context, std::size_t dimension, bool above,
+                                         const std::vector<bool>& may_leave);
+
+/// A state of S at rest at the limit of a `stop` side, with an input under which nothing moves, whose cell is
+/// not in K. The cell around a limit holds everything from the limit to half a step beside it, a vehicle that
+/// stands and others that creep; so its reachable set spreads to the next position at every step, on every
+/// grid. Centres of cells are looked at where all states with such a side are at it: some thousand cells, and
+/// some inputs; none found proves nothing. Nothing is said where nobody chooses (`given`, a controller file),
+/// where memories are kept, or where a state at rest would depend on a disturbance.
+/// @param invariant K @pre the context is set up, by one process; the set has its rows
+[[nodiscard]] Warnings advise_on_standing(const AnalysisContext& context, const CellSet& invariant);
+
+/// What an analysis would find at once, without the whole of its tables: within a bounded amount of work,
+/// which no clock decides.
+///
+/// 1. Equations are evaluated over boxes of cells, halved where they may be undefined, down to single cells,
+///    whose posts are then computed; so are those of some cells drawn at random.
+/// 2. `safe` is evaluated likewise: if it is false in all boxes, no cell satisfies it.
+///
+/// Tables that are sums are left out: they are small. An example: `1/x` over 10^9 cells takes some 60 boxes
+/// to come to the cell at x = 0.
+/// @param posts about so many entries of tables are computed, and ten times as many boxes looked at
+/// @returns a warning if nothing satisfies `safe` @throws SpecError as build_abstraction()
+[[nodiscard]] Warnings look_ahead(const Model& model, std::int64_t posts, ThreadTeam& team);
+
+/// What a search did: reads of tables and sets, and solutions followed.
+struct SearchWork {
+  std::int64_t reads = 0;
+  std::int64_t followed = 0;
+};
+
+/// Where safety is asked at samples only: a motion from one cell of a set to others of it, under an
+/// admissible joint input, that passes cells outside S in between. Tried on a sample: a fixed amount of work,
+/// the same on every machine and no more than a sixteenth of a read a cell on large grids. Cells are chosen
+/// by the straight line to the middle of their post, and then followed from their centre with disturbances in
+/// the middle, without a guarantee; whoever finds none has proved nothing. Of those found it tells the first
+/// where the condition itself fails, else the first.
+/// @param kept K, or S where K is not known
+/// @pre the context is set up, by one process; `kept` has its rows
+[[nodiscard]] Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept,
+                                               ThreadTeam& team, SearchWork& work);
 
 }  // namespace coordreq

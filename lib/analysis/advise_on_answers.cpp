@@ -16,7 +16,7 @@
 #include "base/error.hpp"
 #include "base/grouped.hpp"
 #include "base/requires.hpp"
-#include "reach/make_model.hpp"
+#include "reach/build_abstraction.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/advice.hpp"
-#include "analysis/blocked_pairs.hpp"
 #include "analysis/motion.hpp"
 #include "base/grouped.hpp"
 #include "base/json.hpp"

@@ -8,7 +8,7 @@
 #include "expression/evaluate.hpp"
 #include "model/outside.hpp"
 #include "spec/problem_spec.hpp"
-#include "spec/unit_value.hpp"
+#include "spec/units.hpp"
 
 namespace coordreq {
 namespace {

@@ -18,7 +18,7 @@
 #include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
-#include "reach/make_model.hpp"
+#include "reach/build_abstraction.hpp"
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
 

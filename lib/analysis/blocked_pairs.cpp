@@ -1,4 +1,4 @@
-#include "analysis/blocked_pairs.hpp"
+#include "analysis/advice.hpp"
 
 #include <bit>
 

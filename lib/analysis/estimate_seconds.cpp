@@ -10,8 +10,8 @@
 #include "analysis/coarse_copy.hpp"
 #include "answers/answers.hpp"
 #include "answers/plan.hpp"
+#include "reach/build_abstraction.hpp"
 #include "reach/enclosure_sample.hpp"
-#include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

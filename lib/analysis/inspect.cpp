@@ -8,7 +8,6 @@
 #include "answers/share_context.hpp"
 #include "engine/engine_sizes.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/make_model.hpp"
 #include "reach/table_shapes.hpp"
 #include "results/controller_file.hpp"
 #include "spec/problem_spec.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/look_ahead.hpp"
+#include "analysis/advice.hpp"
 
 #include <algorithm>
 #include <functional>

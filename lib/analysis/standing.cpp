@@ -1,4 +1,4 @@
-#include "analysis/standing.hpp"
+#include "analysis/advice.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/unseen_motion.hpp"
+#include "analysis/advice.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

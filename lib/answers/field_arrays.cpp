@@ -3,7 +3,7 @@
 #include <limits>
 #include <memory>
 
-#include "answers/countdown/trigger_table.hpp"
+#include "answers/countdown/delay_layers.hpp"
 #include "answers/step_codes.hpp"
 #include "engine/convert_stretch.hpp"
 

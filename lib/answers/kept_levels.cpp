@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/requires.hpp"
-#include "engine/kept_rows.hpp"
+#include "engine/wave_watch.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "base/error.hpp"
-#include "base/processors.hpp"
 #include "base/sanitizers.hpp"
 #include "base/timer.hpp"
 

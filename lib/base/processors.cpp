@@ -1,4 +1,4 @@
-#include "base/processors.hpp"
+#include "base/process_memory.hpp"
 
 #include <sched.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "base/index.hpp"

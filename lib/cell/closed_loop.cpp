@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "answers/goal/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 #include "model/sample_reset.hpp"

@@ -4,13 +4,11 @@
 #include <map>
 #include <utility>
 
-#include "answers/goal/fields.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/plan.hpp"
 #include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
 #include "answers/silence/answer.hpp"
-#include "answers/silence/fields.hpp"
 #include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "cell/cell_controller.hpp"

@@ -1,15 +1,12 @@
 #include "cell/file_sets.hpp"
 
-#include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
-#include "answers/layers/fields.hpp"
 #include "answers/layers/stored_partition.hpp"
-#include "answers/silence/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 #include "cell/cell_controller.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "answers/goal/fields.hpp"
+#include "answers/paths.hpp"
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"

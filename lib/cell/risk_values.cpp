@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "answers/paths.hpp"
 #include "answers/risk/expected_risk.hpp"
-#include "answers/risk/fields.hpp"
 #include "answers/risk/policy.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "numeric/outward.hpp"

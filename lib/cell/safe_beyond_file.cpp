@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/paths.hpp"
 #include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 

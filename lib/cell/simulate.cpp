@@ -7,14 +7,12 @@
 #include <limits>
 #include <map>
 
-#include "answers/blind/fields.hpp"
-#include "answers/goal/fields.hpp"
-#include "answers/invariance/fields.hpp"
+#include "answers/blind/answer.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/one_cell/kept_inputs.hpp"
+#include "answers/paths.hpp"
 #include "answers/plan.hpp"
 #include "answers/silence/answer.hpp"
-#include "answers/silence/fields.hpp"
 #include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "answers/field_table.hpp"
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

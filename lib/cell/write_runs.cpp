@@ -5,10 +5,9 @@
 
 #include "answers/field_parts.hpp"
 #include "answers/plan.hpp"
-#include "results/file_header.hpp"
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
-#include "spec/unit_text.hpp"
+#include "spec/units.hpp"
 
 namespace coordreq {
 namespace {

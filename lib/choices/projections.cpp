@@ -135,7 +135,7 @@ class Projections::Builder {
         for (const std::size_t t : rules.sources) keep(permitted(place, c, g, t), mask);
         for (std::size_t w = 0; w < cells.size(); ++w) any[w] |= mask[w];
       }
-      if (rules_->lacking != nullptr) count_lacking(place, c, any, all);
+      if (rules_->without_action != nullptr) count_without_action(place, c, any, all);
       keep(any, all.data());
     }
     members_ = std::move(all);
@@ -146,16 +146,17 @@ class Projections::Builder {
   }
 
   /// Counts the cells of `all` that are not in `any`: class c has no action there.
-  void count_lacking(const RowPlace& place, std::size_t c, ConstRow any, const std::vector<Word>& all) const {
-    std::vector<Word> lacking(all);
-    for (std::size_t w = 0; w < any.size(); ++w) lacking[w] &= ~any[w];
+  void count_without_action(const RowPlace& place, std::size_t c, ConstRow any,
+                            const std::vector<Word>& all) const {
+    std::vector<Word> without_action(all);
+    for (std::size_t w = 0; w < any.size(); ++w) without_action[w] &= ~any[w];
     const auto count = [&](std::size_t agent, const std::vector<Word>& cells) {
       for (std::size_t w = 0; w < cells.size(); ++w) {
-        (*rules_->lacking)[agent] += std::popcount(cells[w] & lacking[w]);
-        lacking[w] &= ~cells[w];
+        (*rules_->without_action)[agent] += std::popcount(cells[w] & without_action[w]);
+        without_action[w] &= ~cells[w];
       }
     };
-    if (!any_set(lacking)) return;
+    if (!any_set(without_action)) return;
     const ClassRules& rules = rules_->classes[c];
     for (std::size_t k = 0; k < rules.sources.size(); ++k) {
       std::vector<Word> nothing(all.size(), ~Word{0});

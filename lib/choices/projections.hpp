@@ -33,7 +33,7 @@ struct SilentRules {
   std::vector<const PairTable*> tables;  ///< [source]; null: the source is no rule
   /// [agent] Number of cells in own rows in which its class is the first without an action; null: not
   /// counted.
-  std::vector<std::atomic<std::int64_t>>* lacking = nullptr;
+  std::vector<std::atomic<std::int64_t>>* without_action = nullptr;
 
   /// Whether every class may take all of its actions in all cells.
   [[nodiscard]] bool permit_all() const {

@@ -8,7 +8,6 @@
 #include "engine/join_rows.hpp"
 #include "engine/level_kernels.hpp"
 #include "engine/limits.hpp"
-#include "reach/usual_offsets.hpp"
 #include "reach/usual_slices.hpp"
 #include "spec/problem_spec.hpp"
 

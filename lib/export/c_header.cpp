@@ -1,4 +1,4 @@
-#include "export/c_header.hpp"
+#include "export/formats.hpp"
 
 #include <fmt/format.h>
 
@@ -9,14 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "answers/blind/fields.hpp"
+#include "answers/blind/answer.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/paths.hpp"
 #include "base/error.hpp"
 #include "base/requires.hpp"
 #include "cell/cell_controller.hpp"
 #include "export/c_header_tables.hpp"
 #include "export/c_header_text.hpp"
-#include "reach/update_table.hpp"
+#include "reach/tables.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/sight.hpp"
 

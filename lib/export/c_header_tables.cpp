@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "answers/goal/fields.hpp"
+#include "answers/paths.hpp"
 #include "cell/cell_controller.hpp"
 #include "spec/problem_spec.hpp"
 

@@ -1,4 +1,4 @@
-#include "export/cell_image.hpp"
+#include "export/formats.hpp"
 
 #include <fmt/format.h>
 

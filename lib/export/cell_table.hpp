@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/cell_block.hpp"
+#include "model/uniform_grid.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {
@@ -80,5 +81,11 @@ class CellTable {
   CellBlock block_;  ///< after slices
   std::int64_t part_cells_;
 };
+
+/// Reads "v2=2.8" (the cells in which v2 has this value) and "p2:min" or "p2:max", one or several with commas
+/// between. @throws UsageError naming what is unknown, repeated or outside of the domain
+[[nodiscard]] TableSelection parse_selection(const std::vector<std::string>& slices,
+                                             const std::vector<std::string>& projections,
+                                             const UniformGrid& grid);
 
 }  // namespace coordreq

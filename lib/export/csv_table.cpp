@@ -1,4 +1,4 @@
-#include "export/csv_table.hpp"
+#include "export/formats.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "export/parse_selection.hpp"
+#include "export/cell_table.hpp"
 
 #include <fmt/format.h>
 

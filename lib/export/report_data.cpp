@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/json.hpp"
-#include "export/report_map_list.hpp"
+#include "export/report_maps.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
 

@@ -1,4 +1,4 @@
-#include "export/report_map_list.hpp"
+#include "export/report_maps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "answers/field_table.hpp"
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 
 namespace coordreq {

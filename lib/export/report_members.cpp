@@ -1,11 +1,11 @@
-#include "export/report_members.hpp"
+#include "export/report_maps.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "base/requires.hpp"
 

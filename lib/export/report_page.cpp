@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "export/base64.hpp"
-#include "export/report_template.hpp"
 #include "results/sha256.hpp"
 
 namespace coordreq {

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+// The parts of the page, files of lib/export/report that the program carries.
 namespace coordreq {
 
 /// `text` as HTML or XML text or attribute value: & < > " ' as entities.
@@ -19,5 +20,10 @@ struct ReportPage {
 /// The page, complete in itself: it may load nothing and run no other script than its own (Content Security
 /// Policy by hash).
 [[nodiscard]] std::string report_page(const ReportPage& page);
+
+/// HTML with places "{{name}}".
+[[nodiscard]] std::string_view report_html();
+[[nodiscard]] std::string_view report_style();
+[[nodiscard]] std::string_view report_script();
 
 }  // namespace coordreq

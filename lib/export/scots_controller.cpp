@@ -1,4 +1,4 @@
-#include "export/scots_controller.hpp"
+#include "export/formats.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "answers/goal/fields.hpp"
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "base/error.hpp"
 #include "base/requires.hpp"
 #include "cell/cell_controller.hpp"

@@ -1,4 +1,4 @@
-#include "export/vti_image.hpp"
+#include "export/formats.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

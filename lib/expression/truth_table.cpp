@@ -5,7 +5,6 @@
 
 #include "expression/cell_truth.hpp"
 #include "expression/condition.hpp"
-#include "expression/condition_atoms.hpp"
 
 namespace coordreq {
 namespace {

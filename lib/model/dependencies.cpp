@@ -1,4 +1,4 @@
-#include "model/dependencies.hpp"
+#include "model/table_shape.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -77,4 +77,7 @@ struct ResolvedRange {
 /// @pre raw.first <= raw.last, count >= 1, `periodic` on both sides or none
 [[nodiscard]] ResolvedRange resolve(IndexRange raw, std::int64_t count, Outside below, Outside above);
 
+/// A rule for leaving the domain as the spec has it: "saturate".
+[[nodiscard]] const char* outside_word(Outside rule);
+
 }  // namespace coordreq

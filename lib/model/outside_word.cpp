@@ -1,4 +1,4 @@
-#include "model/outside_word.hpp"
+#include "model/outside.hpp"
 
 namespace coordreq {
 

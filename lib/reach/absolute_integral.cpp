@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "reach/bernstein.hpp"
-
 namespace coordreq {
 namespace {
 

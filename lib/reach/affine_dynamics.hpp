@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/dependencies.hpp"
+#include "model/table_shape.hpp"
 #include "numeric/rational.hpp"
 #include "spec/spec_types.hpp"
 

@@ -1,4 +1,4 @@
-#include "reach/affine_table.hpp"
+#include "reach/tables.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,6 @@
 #include "reach/affine_post.hpp"
 #include "reach/cells_meeting.hpp"
 #include "reach/stopped_row.hpp"
-#include "reach/table_layout.hpp"
-#include "reach/tube_table.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

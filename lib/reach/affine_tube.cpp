@@ -4,7 +4,6 @@
 
 #include "reach/absolute_integral.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "reach/bernstein.hpp"
 #include "reach/nilpotent_flow.hpp"
 #include "spec/system_spec.hpp"
 

@@ -1,4 +1,4 @@
-#include "reach/bernstein.hpp"
+#include "reach/absolute_integral.hpp"
 
 #include <cstddef>
 

@@ -5,13 +5,10 @@
 #include <utility>
 
 #include "reach/affine_dynamics.hpp"
-#include "reach/affine_table.hpp"
 #include "reach/cells_meeting.hpp"
-#include "reach/enclosure_table.hpp"
 #include "reach/shift.hpp"
-#include "reach/sum_table.hpp"
 #include "reach/table_shapes.hpp"
-#include "reach/update_table.hpp"
+#include "reach/tables.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

@@ -1,4 +1,4 @@
-#include "reach/enclosure_table.hpp"
+#include "reach/tables.hpp"
 
 #include <fmt/format.h>
 
@@ -12,12 +12,10 @@
 #include "expression/place.hpp"
 #include "model/pieces.hpp"
 #include "ranks/divided_loop.hpp"
-#include "reach/affine_table.hpp"
 #include "reach/box_choices.hpp"
 #include "reach/cells_meeting.hpp"
 #include "reach/divided_entries.hpp"
 #include "reach/state_enclosure.hpp"
-#include "reach/table_layout.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

@@ -1,4 +1,4 @@
-#include "reach/make_model.hpp"
+#include "reach/build_abstraction.hpp"
 
 #include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "model/dependencies.hpp"
+#include "model/table_shape.hpp"
 #include "numeric/interval.hpp"
 #include "reach/point_flow.hpp"
 #include "spec/system_spec.hpp"

@@ -7,7 +7,7 @@
 
 #include "expression/functions.hpp"
 #include "expression/tape_builder.hpp"
-#include "reach/slope.hpp"
+#include "reach/shift.hpp"
 
 namespace coordreq {
 namespace {

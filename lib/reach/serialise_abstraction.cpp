@@ -1,4 +1,4 @@
-#include "reach/serialise_abstraction.hpp"
+#include "reach/build_abstraction.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -9,8 +9,7 @@
 #include "reach/affine_dynamics.hpp"
 #include "reach/affine_part.hpp"
 #include "reach/scaled_number.hpp"
-#include "reach/sum_table.hpp"
-#include "reach/table_layout.hpp"
+#include "reach/tables.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

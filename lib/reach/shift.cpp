@@ -7,7 +7,6 @@
 #include "base/index.hpp"
 #include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
-#include "reach/slope.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

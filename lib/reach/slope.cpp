@@ -1,4 +1,4 @@
-#include "reach/slope.hpp"
+#include "reach/shift.hpp"
 
 #include <utility>
 

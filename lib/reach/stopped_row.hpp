@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/dependencies.hpp"
+#include "model/table_shape.hpp"
 #include "model/uniform_grid.hpp"
 #include "numeric/rational.hpp"
 #include "spec/system_spec.hpp"

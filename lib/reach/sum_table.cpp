@@ -1,4 +1,4 @@
-#include "reach/sum_table.hpp"
+#include "reach/tables.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +10,6 @@
 #include "reach/box_choices.hpp"
 #include "reach/scaled_number.hpp"
 #include "reach/shift.hpp"
-#include "reach/table_layout.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

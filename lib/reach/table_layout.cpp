@@ -1,8 +1,7 @@
-#include "reach/table_layout.hpp"
+#include "reach/tables.hpp"
 
 #include "base/requires.hpp"
 #include "reach/shift.hpp"
-#include "reach/sum_table.hpp"
 
 namespace coordreq {
 namespace {

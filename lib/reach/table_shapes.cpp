@@ -12,7 +12,7 @@
 #include "reach/abstraction.hpp"
 #include "reach/affine_dynamics.hpp"
 #include "reach/shift.hpp"
-#include "reach/sum_table.hpp"
+#include "reach/tables.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

@@ -1,4 +1,4 @@
-#include "reach/tube_table.hpp"
+#include "reach/tables.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "reach/update_table.hpp"
+#include "reach/tables.hpp"
 
 #include <memory>
 #include <optional>
@@ -6,11 +6,10 @@
 
 #include "base/index.hpp"
 #include "base/requires.hpp"
-#include "model/dependencies.hpp"
 #include "model/odometer.hpp"
+#include "model/table_shape.hpp"
 #include "ranks/divided_loop.hpp"
 #include "reach/divided_entries.hpp"
-#include "reach/table_layout.hpp"
 #include "reach/update_ranges.hpp"
 #include "spec/system_spec.hpp"
 

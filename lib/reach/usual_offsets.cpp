@@ -1,4 +1,4 @@
-#include "reach/usual_offsets.hpp"
+#include "reach/usual_slices.hpp"
 
 #include <algorithm>
 #include <cmath>

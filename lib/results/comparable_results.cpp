@@ -1,4 +1,4 @@
-#include "results/comparable_results.hpp"
+#include "results/compare_results.hpp"
 
 #include <fmt/format.h>
 

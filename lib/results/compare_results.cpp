@@ -7,7 +7,6 @@
 #include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "base/requires.hpp"
-#include "results/comparable_results.hpp"
 
 namespace coordreq {
 namespace {

@@ -11,6 +11,7 @@
 #include "results/results_reader.hpp"
 
 // The losses and gains of a later result of the same grid against an earlier one.
+// Whether and where two results can be compared cell by cell.
 namespace coordreq {
 
 /// A set of cells in both files, as the field says that it is called there and in words.
@@ -91,5 +92,12 @@ struct CompareOptions {
 ///   partition is in both files; as ResultsReader does
 [[nodiscard]] ResultsComparison compare_results(const ResultsReader& before, const ResultsReader& after,
                                                 const CompareOptions& options);
+
+/// @throws ResultsError naming the first difference if states, their grids or units, or periods are not the
+///   same
+void check_comparable(const ResultsReader& before, const ResultsReader& after);
+
+/// Pairs of partitions with the same name, or else the same classes, and those that are in one spec only.
+void match_partitions(const ProblemSpec& before, const ProblemSpec& after, ResultsComparison& result);
 
 }  // namespace coordreq

@@ -9,9 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/requires.hpp"
-#include "results/scots_controller.hpp"
 #include "results/sha256.hpp"
-#include "results/stored_controller.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

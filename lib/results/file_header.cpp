@@ -1,10 +1,10 @@
-#include "results/file_header.hpp"
+#include "results/write_results.hpp"
 
 #include "answers/invariance/answer.hpp"
 #include "results/sha256.hpp"
 #include "results/version.hpp"
 #include "spec/problem_spec.hpp"
-#include "spec/unit_text.hpp"
+#include "spec/units.hpp"
 
 namespace coordreq {
 

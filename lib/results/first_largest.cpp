@@ -1,4 +1,4 @@
-#include "results/first_largest.hpp"
+#include "results/results_reader.hpp"
 
 #include "answers/step_codes.hpp"
 

@@ -1,4 +1,4 @@
-#include "results/gather_stretches.hpp"
+#include "results/rank_lists.hpp"
 
 #include <algorithm>
 #include <set>

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/requires.hpp"
-#include "results/gather_stretches.hpp"
+#include "results/rank_lists.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "results/gather_stretches.hpp"
-
 namespace coordreq {
 namespace {
 

@@ -5,12 +5,11 @@
 #include "answers/plan.hpp"
 #include "answers/step_codes.hpp"
 #include "base/json.hpp"
-#include "model/outside_word.hpp"
-#include "results/first_largest.hpp"
+#include "model/outside.hpp"
 #include "results/results_reader.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/set_value.hpp"
-#include "spec/unit_text.hpp"
+#include "spec/units.hpp"
 
 namespace coordreq {
 namespace {

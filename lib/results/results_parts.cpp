@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "answers/field_table.hpp"
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "results/check_fields.hpp"

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,7 +17,7 @@
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
 #include "reach/abstraction.hpp"
-#include "results/stored_values.hpp"
+#include "results/results_parts.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -154,5 +156,22 @@ class ResultsReader : public FieldSource {
   UniformGrid grid_;
   InputSpace inputs_;
 };
+
+/// A number for each cell: steps, or a place in a list; -3 to -1 are flags, kUnbounded is
+/// infinity.
+using ReadCells = std::function<std::vector<std::int32_t>(const CellBlock&)>;
+
+/// Calls `visit(block, values)` for all cells in row-major order, about a million at a time.
+template <class Visit>
+void for_each_part(const UniformGrid& grid, const ReadCells& read, const Visit& visit) {
+  for (std::int64_t begin = 0; begin < grid.cells(); begin += kPartCells) {
+    const std::int64_t end = std::min(begin + kPartCells, grid.cells());
+    for (const CellBlock& block : blocks_of_stretch(grid, begin, end)) visit(block, read(block));
+  }
+}
+
+/// The first cell with the largest finite value of at least 0; if there is none the first with an infinite
+/// one; else -1.
+[[nodiscard]] std::int64_t first_largest(const UniformGrid& grid, const ReadCells& read);
 
 }  // namespace coordreq

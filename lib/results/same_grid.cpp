@@ -1,4 +1,4 @@
-#include "results/same_grid.hpp"
+#include "results/controller_file.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "results/scots_controller.hpp"
+#include "results/controller_file.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "results/same_grid.hpp"
 #include "results/scots_format.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/wording.hpp"

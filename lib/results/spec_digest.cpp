@@ -1,4 +1,4 @@
-#include "results/spec_digest.hpp"
+#include "results/version.hpp"
 
 #include "base/error.hpp"
 #include "results/child_trial.hpp"

@@ -1,13 +1,12 @@
-#include "results/stored_controller.hpp"
+#include "results/controller_file.hpp"
 
 #include <fmt/format.h>
 
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "base/error.hpp"
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
-#include "results/same_grid.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace coordreq {
@@ -18,5 +20,9 @@ inline constexpr std::array<std::int32_t, 2> kResultsVersion = {1, 0};
 
 /// Attribute `filetype` of a results file.
 inline constexpr std::string_view kResultsFiletype = "coordreq-results";
+
+/// The SHA-256 of the spec that a results file says it is of; nothing if the file is no results file of a
+/// version that this program reads, or is damaged. @throws IoError if it cannot be read
+[[nodiscard]] std::optional<std::string> spec_digest_of(const std::string& path);
 
 }  // namespace coordreq

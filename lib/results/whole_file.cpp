@@ -1,10 +1,9 @@
-#include "results/whole_file.hpp"
+#include "results/output_file.hpp"
 
 #include <cstring>
 
 #include "base/error.hpp"
 #include "results/hdf5_handle.hpp"
-#include "results/output_file.hpp"
 
 namespace coordreq {
 

@@ -9,12 +9,10 @@
 
 #include "answers/field_parts.hpp"
 #include "answers/field_table.hpp"
-#include "results/file_header.hpp"
 #include "results/hdf5_handle.hpp"
 #include "results/netcdf_writer.hpp"
 #include "results/output_file.hpp"
 #include "results/version.hpp"
-#include "results/whole_file.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/set_value.hpp"
 

@@ -45,4 +45,7 @@ void write_fields(const std::string& path, const FileKind& kind,
 ///   analysis does not fail at its end. Leaves nothing behind.
 void check_writable(const std::string& path);
 
+/// The attributes of a results file itself, but for `version`; what tells of the program is marked as found.
+[[nodiscard]] std::vector<FieldAttribute> header_attributes(const ProblemSpec& spec);
+
 }  // namespace coordreq

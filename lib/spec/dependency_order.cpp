@@ -1,4 +1,4 @@
-#include "spec/dependency_order.hpp"
+#include "spec/scope.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "base/requires.hpp"
-#include "spec/json_syntax.hpp"
 #include "spec/json_text.hpp"
 #include "spec/wording.hpp"
 

@@ -1,4 +1,4 @@
-#include "spec/json_syntax.hpp"
+#include "spec/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "base/json.hpp"
-#include "spec/same_letters.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

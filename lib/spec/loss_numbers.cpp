@@ -1,4 +1,4 @@
-#include "spec/loss_numbers.hpp"
+#include "spec/spec_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "spec/read_grid.hpp"
+#include "spec/spec_parts.hpp"
 
 #include <fmt/format.h>
 

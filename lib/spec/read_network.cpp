@@ -8,7 +8,6 @@
 #include "spec/check_limits.hpp"
 #include "spec/coordination_spec.hpp"
 #include "spec/loss_automaton.hpp"
-#include "spec/loss_numbers.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/system_spec.hpp"

@@ -10,7 +10,7 @@
 #include "spec/requirement_kind.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
-#include "spec/unit_text.hpp"
+#include "spec/units.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "spec/check_limits.hpp"
-#include "spec/read_grid.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/system_spec.hpp"

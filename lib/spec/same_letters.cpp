@@ -1,8 +1,6 @@
-#include "spec/same_letters.hpp"
+#include "spec/wording.hpp"
 
 #include <algorithm>
-
-#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,13 +7,10 @@
 
 #include "base/error.hpp"
 #include "expression/tape_builder.hpp"
-#include "spec/dependency_order.hpp"
 #include "spec/read_tables.hpp"
-#include "spec/same_letters.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
-#include "spec/time_text.hpp"
-#include "spec/unit_value.hpp"
+#include "spec/units.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

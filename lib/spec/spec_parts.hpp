@@ -5,13 +5,42 @@
 #include <string>
 #include <vector>
 
+#include "spec/coordination_spec.hpp"
 #include "spec/scope.hpp"
 #include "spec/spec_types.hpp"
 
+// The probabilities of a network.
 // The readers of the parts of a spec. All REQUIRE a document that follows the schema, take `root`, the whole
 // document, and throw SpecError naming the JSON pointer, or SpecErrors; sizes beyond all bounds are
 // LimitErrors.
 namespace coordreq {
+
+/// A dimension as written and the grid points that follow from it.
+struct GridReading {
+  Rational lower;
+  Rational upper;
+  GridSpec grid;
+};
+
+/// The kind of a grid: single points, or cells around its points. Cells are as wide as the step.
+enum class GridOf : std::uint8_t { points, cells, periodic_cells };
+
+/// Reads lower, upper and step or count (contract, section 1, "Grid").
+/// With `step`: {origin + k*step : k integer} inside [lower, upper], both ends included. With `count`: that
+/// many points, evenly from lower to upper, both included; upper left out if periodic. A single point is
+/// lower = upper, and its step 1; for cells that says too little.
+/// @throws SpecError if there is no grid point, step <= 0, lower > upper, a periodic dimension has no count,
+///   or points lie closer than doubles can tell apart; LimitError beyond 2^31 - 2 points
+[[nodiscard]] GridReading read_grid(const Scope& scope, const JsonDocument::Node& object, GridOf kind);
+
+/// A number or a list of the least and the greatest one. @throws SpecError if it is not within [0, 1]
+[[nodiscard]] ProbabilityRange read_probability(const Scope& scope, const JsonDocument::Node& node);
+
+/// Narrows the ranges of all transitions to what they can be while those of each mode are 1 in sum, and drops
+/// transitions that cannot happen. Nothing to do for a network without numbers.
+/// @param pointer where the numbers stand
+/// @throws SpecError if those of a mode cannot be 1 in sum
+void settle_probabilities(NetworkSpec& network, const std::string& pointer);
 
 [[nodiscard]] Time read_time(const JsonDocument::Node& root);
 

@@ -1,10 +1,8 @@
-#include "spec/time_text.hpp"
+#include "spec/units.hpp"
 
 #include <algorithm>
 #include <array>
 #include <string>
-
-#include "spec/unit_text.hpp"
 
 namespace coordreq {
 namespace {

@@ -1,4 +1,4 @@
-#include "spec/unit_text.hpp"
+#include "spec/units.hpp"
 
 #include <algorithm>
 #include <array>

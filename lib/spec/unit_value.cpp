@@ -1,4 +1,4 @@
-#include "spec/unit_value.hpp"
+#include "spec/units.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/requires.hpp"
-#include "spec/unit_text.hpp"
 
 namespace coordreq {
 namespace {

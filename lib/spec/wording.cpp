@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "spec/same_letters.hpp"
-
 namespace coordreq {
 namespace {
 

@@ -26,4 +26,7 @@ namespace coordreq {
 /// The JSON pointer of a member of the object at `pointer`.
 [[nodiscard]] std::string member_pointer(std::string_view pointer, std::string_view key);
 
+/// ", did you mean 'v1'?" if a known name differs from `name` in capitals only, else an empty text.
+[[nodiscard]] std::string same_letters(std::string_view name, const std::vector<std::string>& known);
+
 }  // namespace coordreq

@@ -8,7 +8,7 @@
 #include "expression/domains.hpp"
 #include "expression/exact_equations.hpp"
 #include "expression/truth_of.hpp"
-#include "verify/flint_rational.hpp"
+#include "verify/arb.hpp"
 
 namespace coordreq {
 namespace {

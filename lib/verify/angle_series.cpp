@@ -1,4 +1,4 @@
-#include "verify/angle_series.hpp"
+#include "verify/expression_series.hpp"
 
 namespace coordreq {
 namespace {

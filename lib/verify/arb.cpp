@@ -1,7 +1,6 @@
 #include "verify/arb.hpp"
 
 #include "base/requires.hpp"
-#include "verify/flint_rational.hpp"
 
 namespace coordreq {
 namespace {

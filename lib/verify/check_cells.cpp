@@ -1,4 +1,4 @@
-#include "verify/check_cells.hpp"
+#include "verify/checks.hpp"
 
 #include <algorithm>
 #include <atomic>

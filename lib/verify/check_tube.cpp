@@ -7,7 +7,7 @@
 #include "answers/checking/cell_parts.hpp"
 #include "answers/checking/cell_place.hpp"
 #include "base/requires.hpp"
-#include "verify/check_abstraction.hpp"
+#include "verify/checks.hpp"
 
 namespace coordreq {
 

@@ -1,4 +1,4 @@
-#include "verify/check_tubes.hpp"
+#include "verify/checks.hpp"
 
 #include <algorithm>
 #include <optional>

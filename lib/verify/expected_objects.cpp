@@ -1,9 +1,9 @@
-#include "verify/expected_objects.hpp"
+#include "verify/verify_file.hpp"
 
 #include <algorithm>
 
-#include "results/file_header.hpp"
 #include "results/version.hpp"
+#include "results/write_results.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "base/requires.hpp"
 #include "expression/truth_of.hpp"
-#include "verify/angle_series.hpp"
 
 namespace coordreq {
 namespace {

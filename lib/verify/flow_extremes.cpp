@@ -7,7 +7,6 @@
 
 #include "spec/system_spec.hpp"
 #include "verify/piece_choices.hpp"
-#include "verify/transition_matrix.hpp"
 
 namespace coordreq {
 namespace {

@@ -1,8 +1,14 @@
 #pragma once
 
+#include "verify/arb.hpp"
 #include "verify/flow_tube.hpp"
 
 namespace coordreq {
+
+/// Encloses all transition matrices of e' = A(t) e over `duration`, for every A(t) within `slopes`: the
+/// Peano-Baker series sum_k J^k h^k / k!, its tail bounded by powers of a norm, only where a path of
+/// influence exists. @pre `duration` is not negative
+[[nodiscard]] ArbMatrix transition_matrix(const ArbMatrix& slopes, const Arb& duration);
 
 /// The values of all states of x' = f(x, w) after a period, or after some of its steps.
 ///
@@ -76,5 +82,26 @@ class FlowExtremes : public NextValue {
   std::vector<TubeStep> steps_;
   std::vector<std::optional<std::optional<Influence>>> influences_;  ///< [steps]
 };
+
+/// The range of one state at all times of the period.
+struct FlowRange {
+  Arb lower;  ///< points; no value is beyond them
+  Arb upper;
+  bool stays_above_start =
+      false;  ///< no solution gets below the box that it begins in; then `lower` does not matter
+  bool stays_below_start = false;
+  std::optional<Arb> low;   ///< some solution is at or below it at some later time
+  std::optional<Arb> high;  ///< or at or above it
+};
+
+/// Bounds of one state of a differential equation at all times of the period, from a box of states.
+///
+/// Where its derivative keeps its sign the state lies between its bounds at both ends of that time
+/// (FlowExtremes), elsewhere it moves from where it was at the beginning of a step as far as the derivative
+/// says.
+/// @param state its place among the moving ones
+/// @returns nothing where there are no bounds
+[[nodiscard]] std::optional<FlowRange> range_during_period(FlowExtremes& flow, std::size_t state,
+                                                           const SpanBox& box, const Effort& effort);
 
 }  // namespace coordreq

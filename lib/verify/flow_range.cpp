@@ -1,4 +1,4 @@
-#include "verify/flow_range.hpp"
+#include "verify/flow_extremes.hpp"
 
 #include <algorithm>
 #include <utility>

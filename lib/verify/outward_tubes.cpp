@@ -6,7 +6,7 @@
 #include "answers/checking/cell_parts.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
-#include "verify/flow_range.hpp"
+#include "verify/flow_extremes.hpp"
 #include "verify/own_posts.hpp"
 #include "verify/piece_choices.hpp"
 

@@ -8,7 +8,6 @@
 #include "answers/checking/cell_parts.hpp"
 #include "base/requires.hpp"
 #include "spec/system_spec.hpp"
-#include "verify/seam_use.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "answers/checking/cell_place.hpp"
 #include "spec/system_spec.hpp"
-#include "verify/check_abstraction.hpp"
+#include "verify/checks.hpp"
 #include "verify/flow_extremes.hpp"
 #include "verify/map_extremes.hpp"
 #include "verify/own_posts.hpp"

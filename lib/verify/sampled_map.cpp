@@ -7,7 +7,7 @@
 
 #include "spec/system_spec.hpp"
 #include "verify/affine_form.hpp"
-#include "verify/flint_rational.hpp"
+#include "verify/arb.hpp"
 #include "verify/piece_choices.hpp"
 
 namespace coordreq {

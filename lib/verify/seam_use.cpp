@@ -1,4 +1,4 @@
-#include "verify/seam_use.hpp"
+#include "verify/piece_choices.hpp"
 
 #include <algorithm>
 #include <cmath>

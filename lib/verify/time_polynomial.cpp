@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "verify/arb.hpp"
-#include "verify/flint_rational.hpp"
 
 namespace coordreq {
 namespace {

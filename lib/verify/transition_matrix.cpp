@@ -1,4 +1,4 @@
-#include "verify/transition_matrix.hpp"
+#include "verify/flow_extremes.hpp"
 
 #include <algorithm>
 

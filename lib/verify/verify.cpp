@@ -11,12 +11,9 @@
 #include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/analysis_tables.hpp"
-#include "verify/check_abstraction.hpp"
-#include "verify/check_cells.hpp"
-#include "verify/check_tubes.hpp"
+#include "verify/checks.hpp"
 #include "verify/outward_posts.hpp"
 #include "verify/own_posts.hpp"
-#include "verify/work_of_posts.hpp"
 
 namespace coordreq {
 namespace {

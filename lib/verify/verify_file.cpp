@@ -6,13 +6,12 @@
 #include <utility>
 #include <variant>
 
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "results/results_reader.hpp"
 #include "results/version.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/verify_memory.hpp"
 
 namespace coordreq {
 namespace {

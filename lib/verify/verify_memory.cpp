@@ -1,4 +1,4 @@
-#include "verify/verify_memory.hpp"
+#include "verify/verify_file.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "verify/work_of_posts.hpp"
+#include "verify/checks.hpp"
 
 #include "verify/parameter_choices.hpp"
 

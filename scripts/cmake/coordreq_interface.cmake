@@ -9,7 +9,7 @@ set(COORDREQ_PUBLIC_HEADERS
   cell/state_query.hpp cell/state_text.hpp
   answers/checking/tally.hpp
   verify/verify.hpp verify/verify_file.hpp
-  export/csv_table.hpp export/c_header.hpp export/scots_controller.hpp export/parse_selection.hpp export/text_sink.hpp
+  export/formats.hpp export/cell_table.hpp
   analysis/analyze.hpp cell/simulate.hpp
   cell/simulate_runs.hpp)
 

@@ -6,7 +6,7 @@
 #include "analysis/estimate_memory.hpp"
 #include "base/error.hpp"
 #include "reach/abstraction.hpp"
-#include "reach/make_model.hpp"
+#include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -9,7 +9,6 @@
 #include "answers/context/answer.hpp"
 #include "answers/plan.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 #include "support/thread_ranks.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/memory_limit.hpp"
+#include "app/option_values.hpp"
 
 namespace coordreq {
 namespace {

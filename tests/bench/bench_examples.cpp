@@ -20,7 +20,6 @@
 #include "engine/row_engine.hpp"
 #include "engine/row_operations.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "base/error.hpp"
 #include "cell/analyzed_file.hpp"
 #include "results/scratch_folder.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "answers/layers/answer.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "cell/closed_loop.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"

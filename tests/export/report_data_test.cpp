@@ -7,7 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "cell/analyzed_file.hpp"
 #include "results/scratch_folder.hpp"
 

@@ -1,11 +1,11 @@
-#include "export/report_members.hpp"
+#include "export/report_maps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "answers/invariance/fields.hpp"
+#include "answers/paths.hpp"
 #include "cell/analyzed_file.hpp"
 #include "export/report_data.hpp"
 #include "results/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "expression/condition_atoms.hpp"
+#include "expression/truth_table.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

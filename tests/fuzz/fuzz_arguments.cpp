@@ -3,7 +3,7 @@
 
 #include "app/sweep.hpp"
 #include "cell/state_text.hpp"
-#include "export/parse_selection.hpp"
+#include "export/cell_table.hpp"
 #include "fuzz/target.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/read_spec.hpp"

@@ -2,7 +2,6 @@
 // is why a child process tries first; each execution is a fork.
 #include <algorithm>
 
-#include "answers/layers/fields.hpp"
 #include "fuzz/target.hpp"
 #include "model/cell_block.hpp"
 #include "results/results_reader.hpp"

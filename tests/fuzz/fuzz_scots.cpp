@@ -1,6 +1,6 @@
 // Static controllers of SCOTS.
 #include "fuzz/target.hpp"
-#include "results/scots_controller.hpp"
+#include "results/controller_file.hpp"
 #include "spec/read_spec.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -37,9 +37,10 @@ std::vector<DelayLayers> refined_layers(const ProblemSpec& spec, const FastAnaly
     }
     std::vector<const LevelMap*> coarser;
     for (const std::size_t q : next_coarser(partitions, p)) coarser.push_back(&layers[q].layers_of);
-    layers[p] =
-        find_delay_layers(fast.engine, fast.hull, fast.invariance.invariant, fast.actions[p].projections,
-                          coarser, spec.coordination.max_delay, {}, team);
+    layers[p].layers_of =
+        find_layer_levels(fast.engine, fast.hull, fast.invariance.invariant, fast.actions[p].projections,
+                          coarser, spec.coordination.max_delay, {}, team, layers[p].counts);
+    follow_from_levels(spec.coordination.max_delay, team, layers[p]);
   }
   return layers;
 }

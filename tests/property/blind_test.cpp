@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "answers/blind/answer.hpp"
-#include "answers/blind/fields.hpp"
 #include "answers/step_codes.hpp"
 #include "model/odometer.hpp"
 #include "spec/read_spec.hpp"

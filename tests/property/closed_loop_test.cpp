@@ -9,7 +9,7 @@
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "cell/simulate_runs.hpp"
 #include "model/locate.hpp"
 #include "reach/build_abstraction.hpp"

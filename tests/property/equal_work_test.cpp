@@ -59,10 +59,11 @@ Found find(const FastAnalysis& fast, const Tiles* tiles, ThreadTeam& team) {
   for (const PartitionActions& actions : fast.actions) {
     if (actions.grouping.size() < 2) continue;
     const Projections projections(controller, actions.grouping, team, {.tiles = tiles});
-    const DelayLayers layers = find_delay_layers(fast.engine, fast.hull, k.invariant, projections, {},
-                                                 spec.coordination.max_delay, {}, team);
-    found.levels.push_back(levels_of(layers.layers_of, k.invariant));
-    found.copied += layers.counts.rows_copied;
+    WaveCounts counts;
+    const LevelMap layers = find_layer_levels(fast.engine, fast.hull, k.invariant, projections, {},
+                                              spec.coordination.max_delay, {}, team, counts);
+    found.levels.push_back(levels_of(layers, k.invariant));
+    found.copied += counts.rows_copied;
   }
   return found;
 }

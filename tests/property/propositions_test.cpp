@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "expression/evaluate.hpp"
 #include "model/input_class.hpp"

@@ -17,7 +17,6 @@
 #include "property/plain_region.hpp"
 #include "property/real_way.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/sight.hpp"
 #include "support/analysed_file.hpp"

@@ -111,9 +111,9 @@ TEST(Resumed, LayersAreTheSameFromAnyStep) {
     const FastAnalysis fast(spec, team);
     for (const PartitionActions& actions : fast.actions) {
       RC_ASSERT(resumes(fast.engine, [&](const WaveWatch& watch) {
-        return find_delay_layers(fast.engine, fast.hull, fast.invariance.invariant, actions.projections, {},
-                                 spec.coordination.max_delay, watch, team)
-            .layers_of;
+        WaveCounts counts;
+        return find_layer_levels(fast.engine, fast.hull, fast.invariance.invariant, actions.projections, {},
+                                 spec.coordination.max_delay, watch, team, counts);
       }));
     }
   }));
@@ -166,9 +166,9 @@ TEST(Resumed, SilenceIsTheSameFromAnyStep) {
       const SilentActions actions(*fast.answers, {spec.silence->actions, "actions"},
                                   spec.coordination.partitions[p].classes, going_on, team);
       const auto find = [&](const WaveWatch& watch) {
-        return find_delay_layers(fast.engine, fast.hull, set, actions.projections, {},
-                                 spec.coordination.max_delay, watch, team, over)
-            .layers_of;
+        WaveCounts counts;
+        return find_layer_levels(fast.engine, fast.hull, set, actions.projections, {},
+                                 spec.coordination.max_delay, watch, team, counts, over);
       };
       std::vector<Seen> seen;
       const std::vector<std::int64_t> end = levels_of(find(recorder(fast.engine, seen, 1)));

@@ -46,7 +46,7 @@ PlainSilence plain_silence(const ProblemSpec& spec, const FastAnalysis& fast,
 }
 
 void expect_same_silence(const ProblemSpec& spec, const FastAnalysis& fast, const PlainSilence& plain) {
-  bool goes_on = false, is_bounded = false, is_lacking = false;
+  bool goes_on = false, is_bounded = false, is_without_action = false;
   RC_ASSERT(members(silence_set(*fast.answers)) == plain.set);
   for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
     const PlainSilence::Partition& expected = plain.partitions[p];
@@ -55,19 +55,20 @@ void expect_same_silence(const ProblemSpec& spec, const FastAnalysis& fast, cons
     RC_ASSERT(own.layers.sizes == expected.sizes);
     RC_ASSERT(own.layers.fixed_point_index == expected.fixed_point_index);
     RC_ASSERT(own.layers.truncated == expected.truncated);
-    std::int64_t lacking = 0;
+    std::int64_t without_action = 0;
     for (std::size_t x = 0; x < plain.set.size(); ++x) {
       const bool some = std::count(expected.actions[x].begin(), expected.actions[x].end(), true) > 0;
-      lacking += plain.set[x] && !plain.over[x] && !some ? 1 : 0;
+      without_action += plain.set[x] && !plain.over[x] && !some ? 1 : 0;
     }
-    RC_ASSERT(std::accumulate(own.lacking.begin(), own.lacking.end(), std::int64_t{0}) == lacking);
-    is_lacking = is_lacking || lacking > 0;
+    RC_ASSERT(std::accumulate(own.without_action.begin(), own.without_action.end(), std::int64_t{0}) ==
+              without_action);
+    is_without_action = is_without_action || without_action > 0;
     goes_on = goes_on || expected.sizes.size() > 2;
     is_bounded = is_bounded || expected.sizes.size() > 1;
   }
   RC_CLASSIFY(goes_on, "more than two layers");
   RC_CLASSIFY(is_bounded, "silence has an end");
-  RC_CLASSIFY(is_lacking, "some cells have no action");
+  RC_CLASSIFY(is_without_action, "some cells have no action");
   RC_CLASSIFY(spec.silence->has_then(), "something comes after");
   const bool is_over = std::count(plain.over.begin(), plain.over.end(), true) > 0;
   RC_CLASSIFY(is_over && is_bounded, "a task that ends, and silence");

@@ -12,7 +12,7 @@
 #include "spec/read_spec.hpp"
 #include "support/draw.hpp"
 #include "verify/analysis_tables.hpp"
-#include "verify/check_tubes.hpp"
+#include "verify/checks.hpp"
 
 namespace coordreq {
 namespace {

@@ -1,14 +1,13 @@
 // Tables as sums of one term for each state in which the next value is affine: attacked with simulated
 // points, and compared with what comes out cell by cell.
 
-#include "reach/sum_table.hpp"
+#include "reach/tables.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "reach/attack.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/enclosure_table.hpp"
 #include "reach/table_rows.hpp"
 #include "support/read_system.hpp"
 

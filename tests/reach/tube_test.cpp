@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "reach/enclosure_table.hpp"
 #include "reach/simulated_flow.hpp"
 #include "reach/table_shapes.hpp"
+#include "reach/tables.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

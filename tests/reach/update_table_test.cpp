@@ -1,4 +1,4 @@
-#include "reach/update_table.hpp"
+#include "reach/tables.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

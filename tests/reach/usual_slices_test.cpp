@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "reach/table_shapes.hpp"
-#include "reach/usual_offsets.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 

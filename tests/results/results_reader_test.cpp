@@ -7,10 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "answers/coalition/fields.hpp"
 #include "answers/field_table.hpp"
-#include "answers/layers/fields.hpp"
-#include "answers/network/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/error.hpp"
 #include "base/thread_team.hpp"

@@ -1,4 +1,4 @@
-#include "results/scots_controller.hpp"
+#include "results/controller_file.hpp"
 
 #include <gtest/gtest.h>
 

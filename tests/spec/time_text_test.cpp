@@ -1,4 +1,4 @@
-#include "spec/time_text.hpp"
+#include "spec/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "spec/unit_value.hpp"
+#include "spec/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -139,11 +139,18 @@ TYPE = re.compile(r"^(?:struct|class|enum class|union) (?:\[\[\w+\]\] )?(\w+)\b(
 NAMESPACE = re.compile(r"^(?:inline )?namespace ?([\w:]*) ?\{")
 
 
+def header_of(path, lines):
+    """The header of a source, without its suffix: the one that it includes first, if that is in its folder."""
+    match = INCLUDE.match(lines[0]) if lines and path.suffix == ".cpp" else None
+    own = match and pathlib.Path("" if path.parts[0] == "app" else path.parts[0], match.group(2)).with_suffix("")
+    return own if own and own.parent == path.parent else path.with_suffix("")
+
+
 def needs_are_checked(root):
-    """In docstrings `@pre` is for what REQUIRES() checks, here or in the source beside, and `@pre unchecked:` for the rest."""
+    """In docstrings `@pre` is for what REQUIRES() checks, here or in the header's sources, and `@pre unchecked:` for the rest."""
     findings, stated, checked = [], {}, {}
     for path, lines in sources(root, "lib", "app"):
-        name = path.with_suffix("")
+        name = header_of(path, lines)
         for number, line in enumerate(lines, 1):
             code, _, comment = line.partition("//")
             if "REQUIRES" in comment:

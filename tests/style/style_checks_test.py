@@ -127,6 +127,9 @@ class StyleChecks(unittest.TestCase):
         self.write("lib/engine/a.hpp", "/// @pre k > 0. @pre unchecked: `b` outlives it\nint f(int k) {\n  REQUIRES(k > 0);\n}\n")
         self.write("lib/engine/b.hpp", "/// @pre k > 0\nint g(int k);\n")
         self.write("lib/engine/b.cpp", "int g(int k) {\n  REQUIRES(k > 0);\n}\n")
+        self.write("lib/engine/two.hpp", "/// @pre k > 0\nint first(int k);\n/// @pre k > 0\nint second(int k);\n")
+        self.write("lib/engine/first.cpp", '#include "engine/two.hpp"\nint first(int k) {\n  REQUIRES(k > 0);\n}\n')
+        self.write("lib/engine/second.cpp", '#include "engine/two.hpp"\nint second(int k) {\n  REQUIRES(k > 0);\n}\n')
         self.assertEqual(style_checks.needs_are_checked(self.root), [])
         self.write("lib/engine/c.hpp", "/// REQUIRES: k > 0\nint h(int k);\n/// @pre k > 0\nint i(int k);\n")
         self.assertEqual(

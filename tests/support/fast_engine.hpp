@@ -11,7 +11,6 @@
 #include "answers/step_codes.hpp"
 #include "choices/controller.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

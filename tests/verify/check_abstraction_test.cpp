@@ -1,4 +1,4 @@
-#include "verify/check_abstraction.hpp"
+#include "verify/checks.hpp"
 
 #include <gtest/gtest.h>
 

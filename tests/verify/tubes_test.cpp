@@ -8,8 +8,8 @@
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 #include "verify/check_tube.hpp"
-#include "verify/check_tubes.hpp"
-#include "verify/flow_range.hpp"
+#include "verify/checks.hpp"
+#include "verify/flow_extremes.hpp"
 #include "verify/piece_choices.hpp"
 #include "verify/safe_beyond.hpp"
 

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "answers/blind/blind_layers.hpp"
-#include "answers/blind/fields.hpp"
 #include "answers/checking/all_checks.hpp"
-#include "answers/countdown/best_cells.hpp"
+#include "answers/countdown/fields.hpp"
+#include "answers/countdown/stage.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
@@ -62,26 +62,18 @@ struct BlindSight {
   BlindProblem problem;
 };
 
-LevelBounds bounds_of(const Answers& answers, std::int64_t more) {
-  const std::optional<std::int64_t>& most = answers.context.spec.coordination.max_delay;
-  const std::int64_t steps = answers.context.engine->grid().points();
-  return {&answers.get<Invariance>().invariant, (most ? std::min(*most, steps) : steps) + more};
-}
-
 void find_blind_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   const AnalysisContext& context = answers.context;
   if (answers.find<Blind>() == nullptr)
     answers.add(Blind{std::vector<BlindPartition>(context.spec.coordination.partitions.size())});
-  DelayLayers& layers = answers.get<Blind>().partitions[p].layers;
-  find_or_take_levels(work, *context.engine, bounds_of(answers, 0), layers.layers_of,
-                      [&](const WaveWatch& watch) {
-                        work.enter_part("projections");
-                        const BlindSight partition(answers, p, work);
-                        work.enter_part("");
-                        return find_blind_levels(partition.problem, watch, work.team, layers.counts);
-                      });
-  follow_from_levels(context.spec.coordination.max_delay, work.team, layers);
-  find_best_cell(context, work.team, layers);
+  const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
+    work.enter_part("projections");
+    const BlindSight partition(answers, p, work);
+    work.enter_part("");
+    return find_blind_levels(partition.problem, watch, work.team, counts);
+  };
+  find_layers(context, *context.engine, answers.get<Invariance>().invariant, work,
+              answers.get<Blind>().partitions[p].layers, find);
 }
 
 /// Gives tables their sizes, before they are loaded.
@@ -94,8 +86,8 @@ void size_tables(const Answers& answers, std::size_t p, std::vector<SilentTable>
   for (std::size_t c = 0; c < tables.size(); ++c) {
     if (!fibres[c]) continue;
     tables[c].actions = classes[c].actions();
-    tables[c].met.resize(at(fibres[c]->count()));
-    tables[c].lacked.resize(tables[c].met.size() * at(tables[c].actions));
+    tables[c].seen_depth.resize(at(fibres[c]->count()));
+    tables[c].missing_depth.resize(tables[c].seen_depth.size() * at(tables[c].actions));
   }
 }
 
@@ -104,9 +96,9 @@ void serialise_tables(Archive& archive, std::int64_t steps, std::vector<SilentTa
     return std::ranges::all_of(depths, [steps](std::uint8_t depth) { return depth <= steps; });
   };
   for (SilentTable& table : tables) {
-    archive.list(table.met);
-    archive.list(table.lacked);
-    archive.expect(are_depths(table.met) && are_depths(table.lacked),
+    archive.list(table.seen_depth);
+    archive.list(table.missing_depth);
+    archive.expect(are_depths(table.seen_depth) && are_depths(table.missing_depth),
                    "a silent table has more steps than there are");
   }
 }
@@ -141,7 +133,9 @@ void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work
   const AnalysisContext& context = answers.context;
   BlindPartition& blind_partition = answers.get<Blind>().partitions[p];
   const auto serialise_all = [&answers, &blind_partition](Archive& archive) {
-    serialise(archive, *answers.context.engine, bounds_of(answers, 1), blind_partition.delays.layers_of);
+    LevelBounds bounds = layer_bounds(answers.context, answers.get<Invariance>().invariant);
+    ++bounds.most;
+    serialise(archive, *answers.context.engine, bounds, blind_partition.delays.layers_of);
     serialise_tables(archive, std::min(blind_partition.table_steps(), SilentTable::kMostSteps),
                      blind_partition.tables);
   };
@@ -210,7 +204,7 @@ void summarise_blind(const Answers& answers, Json& summary, Json& work) {
 }
 
 void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info) {
-  if (has_limited_sight(spec)) tell_layers_of(spec, source, "/blind_", "blind", info);
+  if (has_limited_sight(spec)) tell_layers_of(spec, source, kBlindKind, info);
 }
 
 /// Warns that other answers are about agents who see everything.

@@ -25,6 +25,14 @@ struct Blind {
   std::vector<BlindPartition> partitions;
 };
 
+/// The class is one of several, and does not see all states.
+[[nodiscard]] bool has_silent_table(const ProblemSpec& spec, const PartitionSpec& partition,
+                                    std::size_t class_number);
+/// B of a partition; Z if it has one class. @pre unchecked: the layers have been found
+[[nodiscard]] const DelayLayers& blind_layers(const Answers& answers, std::size_t p);
+/// B with the levels of blind delays; Z if the partition has one class.
+[[nodiscard]] const DelayLayers& blind_delays(const Answers& answers, std::size_t p);
+
 extern const Answer blind_answer;
 
 // What its row takes from other files of this folder.

@@ -25,16 +25,16 @@ class CellRemoval {
     for (int w = 0; w < team.size(); ++w) workers_.push_back({.rows = ClassRows(sources)});
   }
 
-  /// Fibres with a common action keep all cells; in the fibres `torn` cells without the most common action
-  /// are removed.
-  void remove(std::size_t c, const std::vector<std::int64_t>& torn) {
+  /// Fibres with a common action keep all cells; in the fibres `conflicting` cells without the most common
+  /// action are removed.
+  void remove(std::size_t c, const std::vector<std::int64_t>& conflicting) {
     const SilentTable& table = tables_[c];
     const auto at_once = std::max<std::int64_t>(1, kMostCounts / table.actions);
-    for (std::int64_t begin = 0; begin < std::ssize(torn); begin += at_once) {
-      const std::int64_t end = std::min(std::ssize(torn), begin + at_once);
-      places_.assign(table.met.size(), kWhole);
+    for (std::int64_t begin = 0; begin < std::ssize(conflicting); begin += at_once) {
+      const std::int64_t end = std::min(std::ssize(conflicting), begin + at_once);
+      places_.assign(table.seen_depth.size(), kWhole);
       for (std::int64_t i = begin; i < end; ++i)
-        places_[at(torn[at(i)])] = static_cast<std::int32_t>(i - begin);
+        places_[at(conflicting[at(i)])] = static_cast<std::int32_t>(i - begin);
       const std::vector<std::int64_t> counts = count_actions(c, end - begin);
       remove_others(c, most_counted(counts, table.actions));
     }
@@ -151,13 +151,13 @@ std::optional<CellSet> find_common_cells(const SilentSources& sources, const Lev
   std::optional<CellSet> left;
   for (std::size_t c = 0; c < tables.size(); ++c) {
     // Removing cells for classes before this one can only mend a fibre; its counts show whether it has.
-    std::vector<std::int64_t> torn;
+    std::vector<std::int64_t> conflicting;
     for (std::int64_t fibre = 0; fibre < tables[c].fibres(); ++fibre) {
-      if (tables[c].is_torn(fibre)) torn.push_back(fibre);
+      if (tables[c].has_conflict(fibre)) conflicting.push_back(fibre);
     }
-    if (torn.empty()) continue;
+    if (conflicting.empty()) continue;
     if (!left) left = second_layer(layers, sources.invariant);
-    CellRemoval(sources, tables, team, *left).remove(c, torn);
+    CellRemoval(sources, tables, team, *left).remove(c, conflicting);
   }
   return left;
 }

@@ -9,12 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "answers/blind/fields.hpp"
 #include "answers/field_parts.hpp"
-#include "answers/goal/fields.hpp"
-#include "answers/layers/fields.hpp"
 #include "answers/one_cell/action_words.hpp"
 #include "answers/one_cell/cell_members.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "base/grouped.hpp"
 #include "base/index.hpp"

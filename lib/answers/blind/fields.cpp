@@ -1,15 +1,14 @@
-#include "answers/blind/fields.hpp"
-
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "answers/blind/answer.hpp"
+#include "answers/countdown/fields.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "spec/partition_names.hpp"
@@ -115,7 +114,7 @@ Fields blind_fields(const ProblemSpec& spec) {
   fields.push_back(blind_steps("blind_countdown", spec,
                                "steps of silence that are left where agents no longer know the cell",
                                {.column = "blind_countdown", .asked = {.words = "blind steps left"}}));
-  add_sizes(fields, "/blind_", 'B', cell_count(spec), spec);
+  add_sizes(fields, kBlindKind, cell_count(spec), spec);
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   const bool has_tables = std::ranges::any_of(
       partitions, [&](const PartitionSpec& partition) { return has_limited_sight(spec, partition); });
@@ -137,24 +136,19 @@ void fill_blind_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues
   const LevelMap& times = answers.get<Invariance>().collision_time;
   const CellOrder& order = *answers.context.order;
   const std::size_t count = spec.coordination.partitions.size();
-  std::vector<const DelayLayers*> all;
-  std::int64_t longest_delay = 0, longest_countdown = 0;
-  for (std::size_t p = 0; p < count; ++p) {
-    const DelayLayers& layers = *all.emplace_back(&blind_layers(answers, p));
-    const std::int64_t last = std::ssize(layers.sizes) - 1;
-    longest_countdown = std::max(longest_countdown, layers.truncated ? last : last - 1);
-    longest_delay = std::max(longest_delay, &blind_delays(answers, p) == &layers
-                                                ? longest_countdown
-                                                : answers.get<Blind>().partitions[p].greatest);
-  }
-  std::vector<ResultArray> delays, countdowns;
-  for (std::size_t p = 0; p < count; ++p) {
-    delays.push_back(delay_array(blind_delays(answers, p), times, order, level_type(longest_delay)));
-    countdowns.push_back(delay_array(*all[p], times, order, level_type(longest_countdown)));
-  }
+  LayersOfPartitions all;
+  for (std::size_t p = 0; p < count; ++p) all.push_back(&blind_layers(answers, p));
+  std::int64_t longest = 0;
+  for (std::size_t p = 0; p < count; ++p)
+    longest =
+        std::max(longest, &blind_delays(answers, p) == all[p] ? longest_delay({all[p]})
+                                                              : answers.get<Blind>().partitions[p].greatest);
+  std::vector<ResultArray> delays;
+  for (std::size_t p = 0; p < count; ++p)
+    delays.push_back(delay_array(blind_delays(answers, p), times, order, level_type(longest)));
   values.entries[paths::kBlindDelay].array = stacked_array(cell_count(spec), std::move(delays));
-  values.entries[paths::kBlindCountdown].array = stacked_array(cell_count(spec), std::move(countdowns));
-  fill_sizes(all, "/blind_", values);
+  fill_steps(answers, all, paths::kBlindCountdown, "", values);
+  fill_sizes(all, kBlindKind, values);
   fill_tables(answers, values);
 }
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "answers/blind/fields.hpp"
 #include "answers/one_cell/cell_members.hpp"
+#include "answers/paths.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/sight.hpp"

@@ -52,13 +52,14 @@ class TableBuilder {
       const Fibres& fibres = *sources_.fibres[c];
       const std::int64_t base = fibres.base(place);
       SilentTable& table = tables_[c];
-      for_each_bit(inside_,
-                   [&](std::int64_t x) { raise(table.met[at(base + fibres.of_lane(x))], depths_[at(x)]); });
+      for_each_bit(inside_, [&](std::int64_t x) {
+        raise(table.seen_depth[at(base + fibres.of_lane(x))], depths_[at(x)]);
+      });
       for (std::int64_t a = 0; !rows_.is_full() && a < table.actions; ++a) {
         const ConstRow have = rows_.cells(c, static_cast<std::uint32_t>(a));
         for (std::size_t w = 0; w < missing_.size(); ++w) missing_[w] = inside_[w] & ~have[w];
         for_each_bit(missing_, [&](std::int64_t x) {
-          raise(table.lacked[at((base + fibres.of_lane(x)) * table.actions + a)], depths_[at(x)]);
+          raise(table.missing_depth[at((base + fibres.of_lane(x)) * table.actions + a)], depths_[at(x)]);
         });
       }
     }
@@ -90,9 +91,9 @@ void take_greatest(const RowShare* share, std::vector<std::uint8_t>& values) {
 
 }  // namespace
 
-bool SilentTable::is_torn(std::int64_t fibre) const {
-  if (met[at(fibre)] == 0) return false;
-  const auto first = lacked.begin() + static_cast<std::ptrdiff_t>(fibre * actions);
+bool SilentTable::has_conflict(std::int64_t fibre) const {
+  if (seen_depth[at(fibre)] == 0) return false;
+  const auto first = missing_depth.begin() + static_cast<std::ptrdiff_t>(fibre * actions);
   return std::all_of(first, first + static_cast<std::ptrdiff_t>(actions),
                      [](std::uint8_t depth) { return depth > 0; });
 }
@@ -105,8 +106,8 @@ std::vector<SilentTable> find_silent_tables(const SilentSources& sources, const 
   for (std::size_t c = 0; c < tables.size(); ++c) {
     if (!sources.fibres[c]) continue;
     tables[c].actions = grouping[c].actions();
-    tables[c].met.assign(at(sources.fibres[c]->count()), 0);
-    tables[c].lacked.assign(tables[c].met.size() * at(tables[c].actions), 0);
+    tables[c].seen_depth.assign(at(sources.fibres[c]->count()), 0);
+    tables[c].missing_depth.assign(tables[c].seen_depth.size() * at(tables[c].actions), 0);
   }
   const std::int64_t most = std::min(deepest, SilentTable::kMostSteps);
   levels.visit([&](const auto& rows) {
@@ -120,8 +121,8 @@ std::vector<SilentTable> find_silent_tables(const SilentSources& sources, const 
     });
   });
   for (SilentTable& table : tables) {
-    take_greatest(engine.share(), table.met);
-    take_greatest(engine.share(), table.lacked);
+    take_greatest(engine.share(), table.seen_depth);
+    take_greatest(engine.share(), table.missing_depth);
   }
   return tables;
 }

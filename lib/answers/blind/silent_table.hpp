@@ -25,20 +25,20 @@ struct SilentTable {
   static constexpr std::int64_t kMostSteps = 64;
 
   std::int64_t actions = 0;
-  std::vector<std::uint8_t> lacked;  ///< [fibre * actions + action] depth of the deepest cell that lacks the
-                                     ///< action; 0: no cell of B_1 does
-  std::vector<std::uint8_t> met;     ///< [fibre] depth of the deepest cell
+  std::vector<std::uint8_t> missing_depth;  ///< [fibre * actions + action] depth of the deepest cell that
+                                            ///< lacks the action; 0: no cell of B_1 does
+  std::vector<std::uint8_t> seen_depth;  ///< [fibre] depth of the deepest cell
 
-  [[nodiscard]] std::int64_t fibres() const { return static_cast<std::int64_t>(met.size()); }
+  [[nodiscard]] std::int64_t fibres() const { return static_cast<std::int64_t>(seen_depth.size()); }
   /// Whether the action is in Q^k, which is empty if no cell of B_k is in the fibre.
   /// @pre 1 <= k. @pre unchecked: k is at most the depth that the table was made for
   [[nodiscard]] bool allows(std::int64_t fibre, std::int64_t action, std::int64_t k) const {
     REQUIRES(1 <= k);
-    return met[static_cast<std::size_t>(fibre)] >= k &&
-           lacked[static_cast<std::size_t>(fibre * actions + action)] < k;
+    return seen_depth[static_cast<std::size_t>(fibre)] >= k &&
+           missing_depth[static_cast<std::size_t>(fibre * actions + action)] < k;
   }
   /// A cell of B_1 is in the fibre, and no action is in A_c(x) for all of them: Q^1 is empty.
-  [[nodiscard]] bool is_torn(std::int64_t fibre) const;
+  [[nodiscard]] bool has_conflict(std::int64_t fibre) const;
 };
 
 /// [class] Nothing for a class that sees everything.

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "answers/checking/all_checks.hpp"
-#include "answers/coalition/fields.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/paths.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 

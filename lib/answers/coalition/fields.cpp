@@ -1,5 +1,3 @@
-#include "answers/coalition/fields.hpp"
-
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +7,7 @@
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"

@@ -7,7 +7,6 @@
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/serialise_abstraction.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -9,7 +9,7 @@
 #include "reach/build_abstraction.hpp"
 #include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
-#include "spec/unit_text.hpp"
+#include "spec/units.hpp"
 
 namespace coordreq {
 namespace {

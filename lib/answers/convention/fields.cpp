@@ -1,9 +1,8 @@
-#include "answers/convention/fields.hpp"
-
 #include "answers/convention/answer.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
+#include "answers/paths.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

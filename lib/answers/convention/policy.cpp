@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/convention/convention.hpp"
-#include "answers/convention/fields.hpp"
 #include "answers/goal/answer.hpp"
+#include "answers/paths.hpp"
 #include "base/grouped.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"

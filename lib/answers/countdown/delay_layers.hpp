@@ -46,20 +46,21 @@ struct DelayLayers {
   }
 };
 
-/// Z_0 = K, Z_{k+1} = SIPRE_S(Z_k) (paper, Eq. (6) and Proposition 1), with IND_C given by its projections;
-/// F is that of Eq. (12).
+/// The levels of Z_0 = K, Z_{k+1} = SIPRE_S(Z_k) (paper, Eq. (6) and Proposition 1), with IND_C given by its
+/// projections: DelayLayers::layers_of.
 /// An empty layer is a fixed point also where `max_delay` stops at it.
 ///
 /// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is a subset of this
 /// one's, so that the worst choice is no worse. The wave begins at the least of their levels.
+/// @param base Z_0: K, or another set that the choices are asked to stay in
 /// @param projections of C where the task goes on
 /// @param over G of a goal that ends it, which is in every layer; null: there is none
 /// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
-[[nodiscard]] DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull,
-                                            const CellSet& invariant, const Projections& projections,
-                                            const std::vector<const LevelMap*>& coarser,
-                                            std::optional<std::int64_t> max_delay, const WaveWatch& watch,
-                                            ThreadTeam& team, const CellSet* over = nullptr);
+[[nodiscard]] LevelMap find_layer_levels(const RowEngine& engine, const RowHull& hull, const CellSet& base,
+                                         const Projections& projections,
+                                         const std::vector<const LevelMap*>& coarser,
+                                         std::optional<std::int64_t> max_delay, const WaveWatch& watch,
+                                         ThreadTeam& team, WaveCounts& counts, const CellSet* over = nullptr);
 
 /// The layers of the partition in which all agents are together, without a wave: IND_C = C, and C keeps every
 /// cell of K in K, so Z_k = K for every k.
@@ -68,7 +69,17 @@ struct DelayLayers {
                                              std::optional<std::int64_t> max_delay, ThreadTeam& team,
                                              bool interned = false);
 
-/// Fills in the members that follow from the levels.
-void follow_from_levels(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& layers);
+/// Fills in the members that follow from the levels; F is that of Eq. (12).
+/// @param beside layers without which these are not fixed, those of safety for approach: A_k = A_{k+1} is a
+///   fixed point only if Z_k = Z_{k+1}, too; null: there are none
+void follow_from_levels(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& layers,
+                        const DelayLayers* beside = nullptr);
+
+/// The entry of the trigger table (contract) for a cell of delay `delay`: delay - D, how many steps the
+/// agents may go on alone before they must start to connect, if a connection takes D steps; kMustBeConnected
+/// if they have none. delay(x) is the k with x in T(k) of the paper, Eq. (11); with D = 0 the table is its
+/// countdown, Eq. (13). kOutsideSafe, kOutsideInvariant and kUnbounded stay as they are.
+/// @pre connection_delay >= 0
+[[nodiscard]] std::int32_t trigger_of(std::int32_t delay, std::int64_t connection_delay);
 
 }  // namespace coordreq

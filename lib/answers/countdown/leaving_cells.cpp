@@ -8,7 +8,6 @@
 #include <memory>
 #include <utility>
 
-#include "answers/countdown/outward_runs.hpp"
 #include "answers/countdown/safe_sides.hpp"
 #include "answers/invariance/answer.hpp"
 #include "base/index.hpp"

@@ -1,4 +1,4 @@
-#include "answers/countdown/outward_runs.hpp"
+#include "answers/countdown/safe_sides.hpp"
 
 #include <bit>
 #include <numeric>

@@ -6,8 +6,9 @@
 #include <optional>
 
 #include "answers/checking/all_checks.hpp"
-#include "answers/countdown/best_cells.hpp"
+#include "answers/countdown/fields.hpp"
 #include "answers/countdown/leaving_cells.hpp"
+#include "answers/countdown/stage.hpp"
 #include "answers/goal/approach_layers.hpp"
 #include "answers/goal/arrival.hpp"
 #include "answers/invariance/answer.hpp"
@@ -77,33 +78,24 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   Goal& goal = answers.get<Goal>();
   const RowEngine& engine = goal.engine->engine();
   const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
-  const std::optional<std::int64_t>& max_delay = spec.coordination.max_delay;
   const bool is_lasting = spec.is_goal_lasting();
   const ApproachSets sets{.progress = goal.engine.get(),
                           .nearness = &goal.nearness,
                           .goal = is_lasting ? nullptr : &goal.cells,
                           .away = &goal.away,
                           .bounds = goal.progress.bounds};
-  const std::int64_t steps = engine.grid().points();
-  const LevelBounds bounds{&goal.winning, max_delay ? std::min(*max_delay, steps) : steps};
-  DelayLayers& its_layers = goal.approach[p];
-  find_or_take_levels(work, engine, bounds, its_layers.layers_of, [&](const WaveWatch& watch) {
+  const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
     work.enter_part("projections");
     const PartitionSpec& partition = spec.coordination.partitions[p];
     const ActionGrouping grouping(engine, input_classes(spec, answers.context.abstraction->inputs, partition),
                                   work.team);
     const Projections projections(goal.progress, grouping, work.team);
     work.enter_part("");
-    DelayLayers found = find_approach_layers(sets, projections, layers, max_delay, watch, work.team);
-    its_layers.counts = found.counts;
-    return std::move(found.layers_of);
-  });
-  if (is_lasting) {
-    follow_from_levels(max_delay, work.team, its_layers);
-  } else {
-    follow_from_approach(layers, max_delay, work.team, its_layers);
-  }
-  find_best_cell(answers.context, work.team, its_layers);
+    return find_approach_levels(sets, projections, layers, spec.coordination.max_delay, watch, work.team,
+                                counts);
+  };
+  find_layers(answers.context, engine, goal.winning, work, goal.approach[p], find,
+              is_lasting ? nullptr : &layers);
 }
 
 /// Adds Goal, if the spec has one: "arrival", then "approach PARTITION" for each partition.

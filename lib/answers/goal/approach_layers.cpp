@@ -102,9 +102,9 @@ LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const De
 
 }  // namespace
 
-DelayLayers find_approach_layers(const ApproachSets& sets, const Projections& projections,
-                                 const DelayLayers& layers, std::optional<std::int64_t> max_delay,
-                                 const WaveWatch& watch, ThreadTeam& team) {
+LevelMap find_approach_levels(const ApproachSets& sets, const Projections& projections,
+                              const DelayLayers& layers, std::optional<std::int64_t> max_delay,
+                              const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts) {
   const CellSet nearing = nearing_cells(sets, projections, team);
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
     return std::make_unique<ApproachActions<Level>>(sets, projections, nearing, team.size());
@@ -121,27 +121,7 @@ DelayLayers find_approach_layers(const ApproachSets& sets, const Projections& pr
     start = first_levels(sets, is_w_all ? *sets.away : nearing, layers);
     inner_watch.resumed = &start;
   }
-  WaveCounts counts;
-  DelayLayers result{.layers_of = find_levels(sets.progress->engine(), sets.progress->hull(), problem,
-                                              inner_watch, team, counts)};
-  result.counts = counts;
-  if (sets.goal == nullptr) {
-    follow_from_levels(max_delay, team, result);
-  } else {
-    follow_from_approach(layers, max_delay, team, result);
-  }
-  return result;
-}
-
-void follow_from_approach(const DelayLayers& layers, std::optional<std::int64_t> max_delay, ThreadTeam& team,
-                          DelayLayers& approach) {
-  follow_from_levels(std::nullopt, team, approach);
-  if (!max_delay || approach.sizes.back() == 0) return;
-  const std::int64_t still = std::max<std::int64_t>(approach.fixed_point_index, layers.fixed_point_index);
-  approach.truncated = layers.truncated || still >= *max_delay;
-  if (!approach.truncated) return;
-  approach.fixed_point_index = -1;
-  approach.sizes.resize(static_cast<std::size_t>(*max_delay) + 1, approach.sizes.back());
+  return find_levels(sets.progress->engine(), sets.progress->hull(), problem, inner_watch, team, counts);
 }
 
 }  // namespace coordreq

@@ -17,9 +17,9 @@ struct ApproachSets {
   const LevelMap* bounds = nullptr;  ///< Controller::bounds
 };
 
-/// Layers in W \ G, where agents that act alone must come nearer to the goal with every step; in G the layers
-/// are those of safety (contract, section 5). DelayLayers::layers_of is 0 outside W. Of a lasting goal the
-/// layers rest on nothing but P, in G too (section 11).
+/// The levels of layers in W \ G, where agents that act alone must come nearer to the goal with every step;
+/// in G the layers are those of safety (contract, section 5). DelayLayers::layers_of is 0 outside W. Of a
+/// lasting goal the layers rest on nothing but P, in G too (section 11).
 ///
 /// Whether all of IND_P comes nearer does not depend on layers, and is found once: a cell where some choice
 /// does not come nearer has level 1, for ever, and cells of G keep the levels of safety; the ordinary wave
@@ -27,14 +27,8 @@ struct ApproachSets {
 /// so that one engine is enough.)
 /// @param projections of P
 /// @param layers of safety, of the partition
-[[nodiscard]] DelayLayers find_approach_layers(const ApproachSets& sets, const Projections& projections,
-                                               const DelayLayers& layers,
-                                               std::optional<std::int64_t> max_delay, const WaveWatch& watch,
-                                               ThreadTeam& team);
-
-/// Fills in the members that follow from the levels. A_k = A_{k+1} is a fixed point only if Z_k = Z_{k+1}
-/// too.
-void follow_from_approach(const DelayLayers& layers, std::optional<std::int64_t> max_delay, ThreadTeam& team,
-                          DelayLayers& approach);
+[[nodiscard]] LevelMap find_approach_levels(const ApproachSets& sets, const Projections& projections,
+                                            const DelayLayers& layers, std::optional<std::int64_t> max_delay,
+                                            const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts);
 
 }  // namespace coordreq

@@ -1,15 +1,14 @@
-#include "answers/goal/fields.hpp"
-
 #include <memory>
 #include <utility>
 
-#include "answers/countdown/trigger_table.hpp"
+#include "answers/countdown/delay_layers.hpp"
+#include "answers/countdown/fields.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/goal/answer.hpp"
 #include "answers/goal/arrival.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "choices/action_bits.hpp"
 #include "engine/convert_stretch.hpp"
@@ -133,24 +132,6 @@ ResultArray with_losing_cells(ResultArray array, const Goal& goal, const CellOrd
   return array;
 }
 
-void fill_approach(const Answers& answers, const Goal& goal, FieldValues& values) {
-  const ProblemSpec& spec = answers.context.spec;
-  const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.context.order;
-  const ElementType type = delay_type(goal.approach);
-  const std::int64_t connection_delay = spec.coordination.connection_delay;
-  std::vector<ResultArray> delays, triggers;
-  for (const DelayLayers& layers : goal.approach) {
-    delays.push_back(with_losing_cells(delay_array(layers, times, order, type), goal, order));
-    triggers.push_back(
-        with_losing_cells(trigger_array(layers, times, connection_delay, order, type), goal, order));
-  }
-  values.entries[paths::kApproachDelay].array = stacked_array(cell_count(spec), std::move(delays));
-  values.entries[paths::kApproachTrigger].array = stacked_array(cell_count(spec), std::move(triggers));
-  if (connection_delay == 0) values.entries[paths::kApproachTrigger].equals = paths::kApproachDelay;
-  fill_sizes(pointers_to(goal.approach), "/approach_", values);
-}
-
 /// P of one class of actions, with C in G.
 ResultArray progress_bits(std::shared_ptr<const ControllerParts> parts, std::vector<InputClass> classes,
                           std::size_t c, ThreadTeam& team) {
@@ -176,7 +157,7 @@ Fields goal_fields(const ProblemSpec& spec) {
   Fields fields = {arrival_field(spec)};
   add_approach(fields, spec);
   // Layers of approach can be constant while each layer of safety loses a cell, and then lose a cell each.
-  add_sizes(fields, "/approach_", 'A', 2 * cell_count(spec), spec);
+  add_sizes(fields, kApproachKind, 2 * cell_count(spec), spec);
   if (spec.output.controller) {
     add_bits(fields, paths::kProgress, FieldSection::controller, spec, all_inputs(spec),
              spec.is_goal_lasting()
@@ -214,7 +195,10 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
     attributes["longest_return"] = std::int64_t{goal->returns.forced.value_or(-1)};
     attributes["longest_gap"] = std::int64_t{goal->returns.any_way.value_or(-1)};
   }
-  fill_approach(answers, *goal, values);
+  const LayersOfPartitions layers = pointers_to(goal->approach);
+  fill_steps(answers, layers, paths::kApproachDelay, paths::kApproachTrigger, values,
+             [goal, &order](ResultArray array) { return with_losing_cells(std::move(array), *goal, order); });
+  fill_sizes(layers, kApproachKind, values);
   if (!spec.output.controller && !spec.output.actions) return;
   const std::shared_ptr<const ControllerParts> parts = controller_parts(answers, true);
   const InputSpace& inputs = answers.context.abstraction->inputs;

@@ -1,8 +1,8 @@
 #include "answers/goal/answer.hpp"
 
 #include "answers/goal/arrival.hpp"
-#include "answers/goal/fields.hpp"
 #include "answers/one_cell/progress_inputs.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 

@@ -1,10 +1,9 @@
-#include "answers/invariance/fields.hpp"
-
 #include <memory>
 
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
+#include "answers/paths.hpp"
 #include "choices/action_bits.hpp"
 #include "spec/problem_spec.hpp"
 

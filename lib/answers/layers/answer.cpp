@@ -6,12 +6,14 @@
 
 #include "answers/checking/all_checks.hpp"
 #include "answers/countdown/best_cells.hpp"
+#include "answers/countdown/fields.hpp"
 #include "answers/countdown/leaving_cells.hpp"
+#include "answers/countdown/stage.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
-#include "answers/layers/fields.hpp"
 #include "answers/layers/refinement.hpp"
 #include "answers/layers/stored_partition.hpp"
+#include "answers/paths.hpp"
 #include "answers/work_json.hpp"
 #include "choices/projection_bytes.hpp"
 #include "spec/partition_names.hpp"
@@ -38,9 +40,6 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
                                 context.tiles.has_value());
     return;
   }
-  const std::int64_t steps = context.engine->grid().points();
-  const LevelBounds bounds{&invariant,
-                           coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
   std::optional<PartitionActions> actions;
   const auto projections = [&]() -> const Projections& {
     if (!actions) {
@@ -50,17 +49,15 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
     }
     return actions->projections;
   };
-  find_or_take_levels(work, *context.engine, bounds, all[p].layers_of, [&](const WaveWatch& watch) {
-    std::vector<const LevelMap*> coarser;
-    for (const std::size_t q : next_coarser(coordination.partitions, p)) coarser.push_back(&all[q].layers_of);
-    DelayLayers found = find_delay_layers(*context.engine, *context.hull, invariant, projections(), coarser,
-                                          coordination.max_delay, watch, work.team, context.over_or_null());
-    all[p].counts = found.counts;
-    return std::move(found.layers_of);
-  });
   DelayLayers& layers = all[p];
-  follow_from_levels(coordination.max_delay, work.team, layers);
-  find_best_cell(context, work.team, layers);
+  find_layers(
+      context, *context.engine, invariant, work, layers, [&](const WaveWatch& watch, WaveCounts& counts) {
+        std::vector<const LevelMap*> coarser;
+        for (const std::size_t q : next_coarser(coordination.partitions, p))
+          coarser.push_back(&all[q].layers_of);
+        return find_layer_levels(*context.engine, *context.hull, invariant, projections(), coarser,
+                                 coordination.max_delay, watch, work.team, counts, context.over_or_null());
+      });
   if (!counts_leaving(context, layers)) return;
   layers.leaving.emplace();
   if (layers.sizes.back() == context.over_cells) return;
@@ -68,8 +65,11 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   work.enter_part("safe sides");
   layers.leaving = count_leaving_cells(
       answers, silent, layers,
-      {.step = work.step ? [&](const WaveStep& step) { work.step(step, steps / context.engine->rows()); }
-                         : std::function<void(const WaveStep&)>()},
+      {.step =
+           work.step
+               ? [&](const WaveStep&
+                         step) { work.step(step, context.engine->grid().points() / context.engine->rows()); }
+               : std::function<void(const WaveStep&)>()},
       work.team);
 }
 
@@ -97,12 +97,6 @@ Json leaving_work_json(const LeavingCounts& counts) {
   json["rows_near"] = counts.rows_near;
   json["rows_read"] = counts.rows_read;
   return json;
-}
-
-Json stored_json(const StoredPartition& partition) {
-  return {{"F", partition.truncated() ? Json() : Json(partition.fixed_point_index)},
-          {"layers", partition.layer_sizes},
-          {"truncated", partition.truncated()}};
 }
 
 /// The sides of the domain at which the cells of the longest finite delay lie, if all lie at one.
@@ -164,9 +158,9 @@ void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info)
   info["partitions"] = Json::array();
   for (const StoredPartition& partition : read_partition_values(spec, source)) {
     Json entry = {{"name", partition.name}, {"classes", partition.classes}};
-    entry.update(stored_json(partition));
     info["partitions"].push_back(std::move(entry));
   }
+  tell_layers_of(spec, source, kDelayKind, info);
 }
 
 /// Levels of all partitions are kept; projections are those of one partition at a time.
@@ -220,21 +214,6 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
                                                  answers.context.spec.coordination.partitions[p]))),
       projections(answers.get<GoingOn>().controller, grouping, team,
                   answers.context.equal(symmetry ? &*symmetry : nullptr)) {}
-
-Json layers_json(const AnalysisContext& context, const DelayLayers& layers) {
-  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
-          {"layers", layers.sizes},
-          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
-          {"truncated", layers.truncated},
-          {"best_state", best_state_json(context, layers)}};
-}
-
-void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
-                    const char* member, Json& info) {
-  const std::vector<StoredPartition> partitions = read_partition_values(spec, source, prefix);
-  for (std::size_t p = 0; p < partitions.size(); ++p)
-    info["partitions"][p][member] = stored_json(partitions[p]);
-}
 
 const Answer layers_answer = {.stages = layers_stages,
                               .memory = layers_memory,

@@ -28,15 +28,6 @@ struct PartitionActions {
   Projections projections;  ///< of canonical rows alone, if there is a symmetry
 };
 
-/// The members of layers in the summary, beside their partition: F, sizes, unbounded cells, whether
-/// `max_delay` cut them, a best state. Together.
-[[nodiscard]] Json layers_json(const AnalysisContext& context, const DelayLayers& layers);
-/// Adds the same members of the layers in a file, for all partitions. @param prefix of their paths, see
-/// add_sizes()
-/// @param member of each partition in `info` @throws ResultsError if an F is no layer
-void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
-                    const char* member, Json& info);
-
 extern const Answer layers_answer;
 
 // What its row takes from other files of this folder.

@@ -1,17 +1,16 @@
-#include "answers/layers/fields.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "answers/countdown/delay_layers.hpp"
-#include "answers/countdown/trigger_table.hpp"
+#include "answers/countdown/fields.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/last_value_cache.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "choices/action_bits.hpp"
 #include "spec/partition_names.hpp"
@@ -19,12 +18,6 @@
 
 namespace coordreq {
 namespace {
-
-/// The most layers that are possible: each but the last loses a cell.
-std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t losses) {
-  const std::optional<std::int64_t>& most = spec.coordination.max_delay;
-  return 1 + (most ? std::min(losses, static_cast<std::uint64_t>(*most)) : losses);
-}
 
 std::map<std::string, std::string> countdown_meanings(const ProblemSpec& spec) {
   const bool takes_time = spec.coordination.connection_delay > 0;
@@ -82,21 +75,6 @@ void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cel
                     .attributes = described("row-major linear index of the cell, by layer, ascending")});
 }
 
-void fill_steps(const Answers& answers, const std::vector<DelayLayers>& partitions, FieldValues& values) {
-  const ProblemSpec& spec = answers.context.spec;
-  const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.context.order;
-  const ElementType type = delay_type(partitions);
-  std::vector<ResultArray> delays, triggers;
-  for (const DelayLayers& layers : partitions) {
-    delays.push_back(delay_array(layers, times, order, type));
-    triggers.push_back(trigger_array(layers, times, spec.coordination.connection_delay, order, type));
-  }
-  values.entries[paths::kDelay].array = stacked_array(cell_count(spec), std::move(delays));
-  values.entries[paths::kTrigger].array = stacked_array(cell_count(spec), std::move(triggers));
-  if (spec.coordination.connection_delay == 0) values.entries[paths::kTrigger].equals = paths::kDelay;
-}
-
 void fill_lists(const Answers& answers, const PartitionSpec& partition, const DelayLayers& layers,
                 const std::shared_ptr<CellsCache>& cache, FieldValues& values) {
   const std::string group = paths::layers(partition);
@@ -139,70 +117,6 @@ std::string actions(const ProblemSpec& spec, const PartitionSpec& partition, std
 
 }  // namespace paths
 
-Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                  std::vector<FieldAttribute> attributes, FieldShown shown, std::string fixed_points) {
-  return {.path = "/" + name,
-          .kind = FieldKind::steps,
-          .section = FieldSection::steps,
-          .types = {ElementType::int16, ElementType::int32},
-          .axes = cell_axes("/partition", spec),
-          .least = least,
-          .attributes = std::move(attributes),
-          .shown = std::move(shown),
-          .fixed_points = std::move(fixed_points)};
-}
-
-void add_sizes(Fields& fields, const std::string& prefix, char layer, std::uint64_t losses,
-               const ProblemSpec& spec) {
-  fields.push_back(number_scale(prefix + "layer", FieldSection::axes, 1, most_layers(spec, losses),
-                                "number k of the layer"));
-  fields.push_back({.path = prefix + "layer_size",
-                    .section = FieldSection::layers,
-                    .types = {ElementType::uint64},
-                    .axes = {"/partition", prefix + "layer"},
-                    .attributes = described(fmt::format("number of cells in {}_k", layer))});
-  fields.push_back({.path = prefix + "fixed_point_index",
-                    .section = FieldSection::layers,
-                    .types = {ElementType::int32},
-                    .axes = {"/partition"},
-                    .least = -1,
-                    .attributes = described(fmt::format("F, the first k with {0}_k = {0}_(k+1)", layer)) +
-                                  std::vector<FieldAttribute>{flags({{-1, "unknown_because_truncated"}})}});
-}
-
-ElementType delay_type(const std::vector<DelayLayers>& partitions) {
-  std::int64_t greatest = 0;
-  for (const DelayLayers& layers : partitions) {
-    // Z_F = Z_{F+1}: the greatest finite delay is F - 1, or the `max_delay` that stopped the iteration.
-    const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
-    greatest = std::max(greatest, layers.truncated ? last : last - 1);
-  }
-  return level_type(greatest);
-}
-
-std::vector<const DelayLayers*> pointers_to(const std::vector<DelayLayers>& partitions) {
-  std::vector<const DelayLayers*> pointers;
-  for (const DelayLayers& layers : partitions) pointers.push_back(&layers);
-  return pointers;
-}
-
-void fill_sizes(const std::vector<const DelayLayers*>& partitions, const std::string& prefix,
-                FieldValues& values) {
-  std::size_t count = 1;
-  for (const DelayLayers* layers : partitions) count = std::max(count, layers->sizes.size());
-  std::vector<std::uint64_t> sizes;
-  std::vector<std::int32_t> fixed_points;
-  for (const DelayLayers* layers : partitions) {
-    for (std::size_t k = 0; k < count; ++k)
-      sizes.push_back(static_cast<std::uint64_t>(layers->sizes[std::min(k, layers->sizes.size() - 1)]));
-    fixed_points.push_back(layers->fixed_point_index);
-  }
-  values.lengths[prefix + "layer"] = count;
-  values.entries[prefix + "layer_size"].array = owned_array(ElementType::uint64, std::move(sizes));
-  values.entries[prefix + "fixed_point_index"].array =
-      owned_array(ElementType::int32, std::move(fixed_points));
-}
-
 /// Delays and triggers of all partitions, sizes of layers, F; on request the layers' cells, and the
 /// admissible actions of each class.
 Fields layer_fields(const ProblemSpec& spec) {
@@ -210,7 +124,7 @@ Fields layer_fields(const ProblemSpec& spec) {
   const std::uint64_t layers = most_layers(spec, cells);
   Fields fields;
   add_steps(fields, spec);
-  add_sizes(fields, "/", 'Z', cells, spec);
+  add_sizes(fields, kDelayKind, cells, spec);
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     if (spec.output.layers) add_lists(fields, partition, cells, layers);
     for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c) {
@@ -225,8 +139,8 @@ Fields layer_fields(const ProblemSpec& spec) {
 /// take more memory than everything else.
 void fill_layer_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
-  fill_steps(answers, partitions, values);
-  fill_sizes(pointers_to(partitions), "/", values);
+  fill_steps(answers, pointers_to(partitions), paths::kDelay, paths::kTrigger, values);
+  fill_sizes(pointers_to(partitions), kDelayKind, values);
   const ProblemSpec& spec = answers.context.spec;
   const auto cells = std::make_shared<CellsCache>();
   const auto grouping = std::make_shared<GroupingCache>();

@@ -1,6 +1,6 @@
 #include "answers/layers/answer.hpp"
 
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,7 +7,7 @@
 
 // The order of partitions by refinement. If each class of P lies in a class of Q, agents are less free to
 // choose alone with Q: IND_C of Q is within that of P, and every layer of P within that of Q. So the delays
-// of Q bound those of P from above, and need not be found again from K on (see find_delay_layers()).
+// of Q bound those of P from above, and need not be found again from K on (see find_layer_levels()).
 namespace coordreq {
 
 /// True if each class of `finer` lies in a class of `coarser`; a partition refines itself.

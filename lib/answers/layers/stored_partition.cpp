@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "answers/field_parts.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 

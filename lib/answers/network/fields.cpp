@@ -1,11 +1,10 @@
-#include "answers/network/fields.hpp"
-
 #include <fmt/format.h>
 
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/network/answer.hpp"
 #include "answers/network/network_meaning.hpp"
+#include "answers/paths.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

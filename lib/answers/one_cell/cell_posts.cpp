@@ -6,11 +6,9 @@
 #include "answers/one_cell/cell_members.hpp"
 #include "base/index.hpp"
 #include "base/requires.hpp"
-#include "reach/affine_table.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/enclosure_table.hpp"
 #include "reach/table_shapes.hpp"
-#include "reach/update_table.hpp"
+#include "reach/tables.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {

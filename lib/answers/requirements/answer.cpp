@@ -7,7 +7,6 @@
 
 #include "answers/checking/all_checks.hpp"
 #include "answers/countdown/delay_layers.hpp"
-#include "answers/goal/fields.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"

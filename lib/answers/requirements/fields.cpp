@@ -1,4 +1,3 @@
-#include "answers/goal/fields.hpp"
 #include "answers/countdown/delay_layers.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/requirements/answer.hpp"

@@ -6,9 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "answers/blind/fields.hpp"
+#include "answers/blind/answer.hpp"
 #include "answers/goal/answer.hpp"
-#include "answers/goal/fields.hpp"
 #include "answers/goal/showing_order.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"

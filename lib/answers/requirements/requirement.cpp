@@ -4,7 +4,6 @@
 #include <tuple>
 
 #include "answers/goal/arrival.hpp"
-#include "answers/goal/fields.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "answers/step_codes.hpp"
 #include "engine/row_operations.hpp"

@@ -10,7 +10,7 @@
 #include "answers/kept_levels.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/network/rule_modes.hpp"
-#include "answers/risk/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "answers/silence/silent_actions.hpp"
 #include "answers/work_json.hpp"

@@ -1,11 +1,10 @@
-#include "answers/risk/fields.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <span>
 
 #include "answers/field_parts.hpp"
+#include "answers/paths.hpp"
 #include "answers/risk/answer.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "base/grouped.hpp"

@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "answers/checking/all_checks.hpp"
-#include "answers/countdown/best_cells.hpp"
+#include "answers/countdown/fields.hpp"
+#include "answers/countdown/stage.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/silence/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/silence/silent_actions.hpp"
 #include "answers/work_json.hpp"
 #include "base/grouped.hpp"
@@ -55,10 +56,8 @@ void find_set(Answers& answers, const StageWork& work) {
     const SilentActions actions(answers, {context.spec.silence->then, "then"}, agents_alone(context.spec),
                                 going_on(context, context.safe, part), work.team);
     work.enter_part("");
-    DelayLayers found = find_delay_layers(*context.engine, *context.hull, context.safe, actions.projections,
-                                          {}, std::nullopt, watch, work.team, context.over_or_null());
-    silence.counts = found.counts;
-    return std::move(found.layers_of);
+    return find_layer_levels(*context.engine, *context.hull, context.safe, actions.projections, {},
+                             std::nullopt, watch, work.team, silence.counts, context.over_or_null());
   });
   silence.set = silence.lost.top_cells(work.team);
   silence.cells = context.count(silence.set);
@@ -66,7 +65,7 @@ void find_set(Answers& answers, const StageWork& work) {
 
 std::vector<std::int64_t> sums(const AnalysisContext& context, const SilentActions& actions) {
   std::vector<std::int64_t> result;
-  for (const std::atomic<std::int64_t>& own : actions.lacking)
+  for (const std::atomic<std::int64_t>& own : actions.without_action)
     result.push_back(sum_of_all(context.shared_rows(), own));
   return result;
 }
@@ -84,23 +83,18 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   const auto classes =
       all_have_rules(*spec.silence) ? agents_alone(spec) : coordination.partitions[p].classes;
   const AgentRules rules{spec.silence->actions, "actions"};
-  const std::int64_t steps = context.engine->grid().points();
-  const LevelBounds bounds{&set, coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
-  find_or_take_levels(work, *context.engine, bounds, partition.layers.layers_of, [&](const WaveWatch& watch) {
+  const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
     work.enter_part("projections");
     const SilentActions actions(answers, rules, classes, asked, work.team);
     work.enter_part("");
-    partition.lacking = sums(context, actions);
-    DelayLayers found = find_delay_layers(*context.engine, *context.hull, set, actions.projections, {},
-                                          coordination.max_delay, watch, work.team, context.over_or_null());
-    partition.layers.counts = found.counts;
-    return std::move(found.layers_of);
-  });
+    partition.without_action = sums(context, actions);
+    return find_layer_levels(*context.engine, *context.hull, set, actions.projections, {},
+                             coordination.max_delay, watch, work.team, counts, context.over_or_null());
+  };
+  find_layers(context, *context.engine, set, work, partition.layers, find);
   // Kept levels do not have these counts.
-  if (partition.lacking.empty())
-    partition.lacking = sums(context, SilentActions(answers, rules, classes, asked, work.team));
-  follow_from_levels(coordination.max_delay, work.team, partition.layers);
-  find_best_cell(context, work.team, partition.layers);
+  if (partition.without_action.empty())
+    partition.without_action = sums(context, SilentActions(answers, rules, classes, asked, work.team));
 }
 
 std::string stage_name(const ProblemSpec& spec, std::size_t p) {
@@ -138,7 +132,7 @@ void summarise_silence(const Answers& answers, Json& summary, Json& work) {
 void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.silence) return;
   if (spec.silence->has_then()) info["silence_set"] = source.counted(paths::kSilenceSet).front();
-  tell_layers_of(spec, source, "/silence_", "silence", info);
+  tell_layers_of(spec, source, kSilenceKind, info);
 }
 
 /// Warns of cells in which silent agents have no action.
@@ -148,12 +142,12 @@ Warnings advise_on_silence(const Answers& answers) {
   const ProblemSpec& spec = answers.context.spec;
   Warnings warnings;
   for (std::size_t p = 0; p < silence->partitions.size(); ++p) {
-    const std::vector<std::int64_t>& lacking = silence->partitions[p].lacking;
-    const std::int64_t cells = std::accumulate(lacking.begin(), lacking.end(), std::int64_t{0});
+    const std::vector<std::int64_t>& without_action = silence->partitions[p].without_action;
+    const std::int64_t cells = std::accumulate(without_action.begin(), without_action.end(), std::int64_t{0});
     if (cells == 0) continue;
     std::vector<std::string> agents;
-    for (std::size_t i = 0; i < lacking.size(); ++i) {
-      if (lacking[i] > 0) agents.push_back(spec.agents[i].name);
+    for (std::size_t i = 0; i < without_action.size(); ++i) {
+      if (without_action[i] > 0) agents.push_back(spec.agents[i].name);
     }
     const bool is_of_one = silence->partitions.size() < spec.coordination.partitions.size() ||
                            spec.coordination.partitions.size() == 1;

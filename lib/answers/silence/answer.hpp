@@ -13,7 +13,7 @@ namespace coordreq {
 struct SilencePartition {
   DelayLayers layers;  ///< L: its delays are the silence
   std::vector<std::int64_t>
-      lacking;  ///< [agent] number of cells of K' in which A is empty, by the agent named for it
+      without_action;  ///< [agent] number of cells of K' in which A is empty, by the agent named for it
 };
 
 /// How long silence is safe if agents act by the rules of the spec (contract, section 9).

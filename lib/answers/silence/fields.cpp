@@ -1,14 +1,13 @@
-#include "answers/silence/fields.hpp"
-
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "answers/countdown/fields.hpp"
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/paths.hpp"
 #include "answers/silence/answer.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
@@ -54,7 +53,7 @@ Fields silence_fields(const ProblemSpec& spec) {
                                     std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
                       .shown = {.column = "silence_set", .compared = "silence set"}});
   }
-  add_sizes(fields, "/silence_", 'L', cell_count(spec), spec);
+  add_sizes(fields, kSilenceKind, cell_count(spec), spec);
   return fields;
 }
 
@@ -63,23 +62,14 @@ void fill_silence_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValu
   const auto* const silence = answers.find<Silence>();
   if (silence == nullptr) return;
   const ProblemSpec& spec = answers.context.spec;
-  const LevelMap& times = answers.get<Invariance>().collision_time;
-  const CellOrder& order = *answers.context.order;
-  std::vector<const DelayLayers*> all;
-  std::int64_t longest = 0;
-  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
-    const DelayLayers& layers = *all.emplace_back(&silence_of(answers, p).layers);
-    const std::int64_t last = std::ssize(layers.sizes) - 1;
-    longest = std::max(longest, layers.truncated ? last : last - 1);
-  }
-  std::vector<ResultArray> arrays;
-  for (const DelayLayers* const layers : all)
-    arrays.push_back(delay_array(*layers, times, order, level_type(longest)));
-  values.entries[paths::kSilence].array = stacked_array(cell_count(spec), std::move(arrays));
-  fill_sizes(all, "/silence_", values);
+  LayersOfPartitions all;
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p)
+    all.push_back(&silence_of(answers, p).layers);
+  fill_steps(answers, all, paths::kSilence, "", values);
+  fill_sizes(all, kSilenceKind, values);
   if (!spec.silence->has_then()) return;
   values.entries[paths::kSilenceSet] = {
-      .array = invariant_array(silence->lost, order),
+      .array = invariant_array(silence->lost, *answers.context.order),
       .attributes = {{"cells", static_cast<std::uint64_t>(silence->cells)}}};
 }
 

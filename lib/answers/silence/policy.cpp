@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "answers/one_cell/silent_inputs.hpp"
-#include "answers/silence/fields.hpp"
+#include "answers/paths.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -44,11 +44,11 @@ std::vector<ActionSource> sources_of(const AnalysisContext& context, const Table
 
 SilentRules rules_of(const AgentRules& rules, const Classes& classes, const Tables& tables,
                      std::size_t sources, const CellSet& cells,
-                     std::vector<std::atomic<std::int64_t>>& lacking) {
+                     std::vector<std::atomic<std::int64_t>>& without_action) {
   SilentRules result{.cells = &cells,
                      .classes = {},
                      .tables = std::vector<const PairTable*>(sources, nullptr),
-                     .lacking = &lacking};
+                     .without_action = &without_action};
   std::vector<std::size_t> source_of_agent(tables.size());
   auto next = static_cast<std::size_t>(
       std::ranges::count_if(tables, [](const auto& table) { return table.has_value(); }));
@@ -78,11 +78,11 @@ SilentRules rules_of(const AgentRules& rules, const Classes& classes, const Tabl
 SilentActions::SilentActions(const Answers& answers, const AgentRules& rules, const Classes& classes,
                              const CellSet& cells, ThreadTeam& team)
     : tables(tables_of(answers.context, rules, team)),
-      lacking(rules.conditions.size()),
+      without_action(rules.conditions.size()),
       grouping(*answers.context.engine, inputs_of(answers.context, classes),
                sources_of(answers.context, tables), team),
       projections(answers.get<GoingOn>().controller, grouping, team,
-                  rules_of(rules, classes, tables, grouping.sources().size(), cells, lacking)) {}
+                  rules_of(rules, classes, tables, grouping.sources().size(), cells, without_action)) {}
 
 double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {
   const SilenceSpec& silence = *sizes.model().spec().silence;

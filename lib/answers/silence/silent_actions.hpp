@@ -37,7 +37,7 @@ struct SilentActions {
 
   std::vector<std::optional<PairTable>>
       tables;  ///< [agent] nothing: it has no condition, or one that permits all actions
-  std::vector<std::atomic<std::int64_t>> lacking;  ///< [agent] see SilentRules
+  std::vector<std::atomic<std::int64_t>> without_action;  ///< [agent] see SilentRules
   ActionGrouping grouping;
   Projections projections;
 };

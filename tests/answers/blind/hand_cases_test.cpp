@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "answers/blind/answer.hpp"
-#include "answers/blind/fields.hpp"
 #include "answers/step_codes.hpp"
 #include "base/json.hpp"
 #include "spec/read_spec.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "answers/blind/fields.hpp"
+#include "answers/paths.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"

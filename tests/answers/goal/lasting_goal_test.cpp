@@ -10,7 +10,6 @@
 
 #include "answers/goal/answer.hpp"
 #include "answers/goal/arrival.hpp"
-#include "answers/goal/fields.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/read_spec.hpp"

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "answers/goal/fields.hpp"
 #include "answers/step_codes.hpp"
 
 namespace coordreq {

@@ -35,7 +35,7 @@ SortedJson two_points(const SortedJson& silence) {
 /// Where y is 0, by x; and for how many cells each agent is why nobody can do anything.
 struct Told {
   Silences silence;
-  std::vector<std::int64_t> lacking;
+  std::vector<std::int64_t> without_action;
 };
 
 Told found(const SortedJson& json) {
@@ -43,7 +43,7 @@ Told found(const SortedJson& json) {
   const ProblemSpec spec = read_spec(json.dump(), "case");
   const FastAnalysis fast(spec, team);
   const SilencePartition& own = silence_of(*fast.answers, 0);
-  Told result{{}, own.lacking};
+  Told result{{}, own.without_action};
   for (std::int64_t x = 0; x < fast.safe.cells(); x += 2) {
     const std::int64_t level = own.layers.layers_of.at(x);
     result.silence.push_back(level == LevelMap::kTop ? own.layers.top_delay()
@@ -77,19 +77,19 @@ TEST(SilenceHandCases, WithoutARuleAnAgentStaysWhereTheControllerKeepsIt) {
 TEST(SilenceHandCases, WhereSomebodyIsToldNothingThereIsNone) {
   const Told nothing = found(two_points({{"actions", {{"a", "u == 1 and x != 2"}, {"b", "true"}}}}));
   EXPECT_EQ(nothing.silence, (Silences{2, 1, 0, 1, 0}));
-  EXPECT_EQ(nothing.lacking, (std::vector<std::int64_t>{2, 0}));  // y is 0 or 1
+  EXPECT_EQ(nothing.without_action, (std::vector<std::int64_t>{2, 0}));  // y is 0 or 1
   const Told second = found(two_points({{"actions", {{"a", "u == 1"}, {"b", "v == 0 and (x + y) != 3"}}}}));
-  EXPECT_EQ(second.lacking, (std::vector<std::int64_t>{0, 2}));
+  EXPECT_EQ(second.without_action, (std::vector<std::int64_t>{0, 2}));
 }
 
 TEST(SilenceHandCases, TheFirstClassThatLacksAnActionIsNamed) {
   SortedJson spec = two_points({{"actions", {{"a", "x != 2"}, {"b", "x != 2"}}}});
-  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{2, 0}));
+  EXPECT_EQ(found(spec).without_action, (std::vector<std::int64_t>{2, 0}));
   // Outside K nothing is left to b, which has no rule; K' is larger than K.
   spec["controller"] = {{"synthesis", "given"}, {"allow", "x >= 1 or u >= 1"}};
   spec["silence"] = {{"actions", {{"a", "true"}}},
                      {"then", {{"a", "u == if(x >= 1, 0, 1)"}, {"b", "v == 0"}}}};
-  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{0, 10}));
+  EXPECT_EQ(found(spec).without_action, (std::vector<std::int64_t>{0, 10}));
 }
 
 TEST(SilenceHandCases, WhatIsForbiddenIsBlockedAlsoToOneAgentAlone) {
@@ -117,10 +117,10 @@ TEST(SilenceHandCases, WhatComesAfterHasToBeSafeForEver) {
 TEST(SilenceHandCases, TheEndOfTheTaskIsReachedForGood) {
   SortedJson spec = two_points({{"actions", {{"a", "u == 1 and x != 3"}, {"b", "true"}}}});
   EXPECT_EQ(found(spec).silence, (Silences{3, 2, 1, 0, 0}));
-  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{2, 0}));
+  EXPECT_EQ(found(spec).without_action, (std::vector<std::int64_t>{2, 0}));
   spec["goal"] = {{"where", "x == 3"}, {"then", "over"}};
   EXPECT_EQ(found(spec).silence, (Silences{kForGood, kForGood, kForGood, kForGood, 0}));
-  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{0, 0}));
+  EXPECT_EQ(found(spec).without_action, (std::vector<std::int64_t>{0, 0}));
   spec["goal"]["where"] = "x == 1";
   EXPECT_EQ(found(spec).silence, (Silences{kForGood, kForGood, 1, 0, 0}));
   spec["goal"]["where"] = "x == 2 and y == 1";  // which b need not reach from y = 0
