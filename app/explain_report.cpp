@@ -54,11 +54,14 @@ Json remedy_json(const DelayExplanation::Remedy& remedy, std::size_t partition,
   return json;
 }
 
-/// The finding as a requirement has it, so that the story is told the same way.
-Json as_silence_requirement(const Json& found) {
-  return {{"kind", "min_silence"},
-          {"partition", found["partition"]},
-          {"counterexample", found["silence"]["way_out"]}};
+Counterexample path_of(const Json& found) {
+  return {.path = found["way_out"], .kind = RequirementKind::min_delay, .partition = found["partition"]};
+}
+
+Counterexample silent_path(const Json& found) {
+  return {.path = found["silence"]["way_out"],
+          .kind = RequirementKind::min_silence,
+          .partition = found["partition"]};
 }
 
 Json silence_json(const DelayExplanation::Silence& found, std::size_t partition,
@@ -110,7 +113,7 @@ void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::st
   }
   text.push_back(fmt::format("During silence the rule permits here: {}.", listed_words(parts)));
   if (silence["way_out"].is_null()) return;
-  for (std::string& sentence : story_sentences(as_silence_requirement(found), spec))
+  for (std::string& sentence : counterexample_sentences(silent_path(found), spec))
     text.push_back(std::move(sentence));
 }
 
@@ -167,18 +170,13 @@ void add_remedies(const Json& found, const ProblemSpec& spec, std::vector<std::s
     text.push_back("No restriction of one class to a single action here makes the delay longer.");
 }
 
-/// The way out as a requirement has it, so that the story is told the same way.
-Json as_requirement(const Json& found) {
-  return {{"kind", "min_delay"}, {"partition", found["partition"]}, {"counterexample", found["way_out"]}};
-}
-
 std::vector<std::string> sentences_of(const Json& found, const ProblemSpec& spec) {
   std::vector<std::string> text;
   const std::string status = text_of(found["delay_status"]);
   if (status == "not_safe") return {"The cell is not safe."};
   if (found.value("over", false))
     return {"The goal is reached here and the task ends: later states do not matter."};
-  if (!found["way_out"].is_null()) text = story_sentences(as_requirement(found), spec);
+  if (!found["way_out"].is_null()) text = counterexample_sentences(path_of(found), spec);
   if (status == "not_invariant") return text;
   if (status == "unbounded")
     text.emplace_back("Every independent choice leads only to cells with unbounded delay.");
@@ -200,16 +198,9 @@ std::string delay_text(const Json& found, const ProblemSpec& spec) {
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(found["delay"]), spec);
 }
 
-std::string way_text(const char* title, const Json& requirement, const ProblemSpec& spec) {
-  const Json& way = requirement["counterexample"];
-  if (way.is_null() || way["steps"].empty()) return "";
-  const StoryTable story = story_table(requirement, spec);
-  std::vector<Table::Align> columns(story.heads.size(), Table::Align::left);
-  std::fill_n(columns.begin(), story.numbers, Table::Align::right);
-  Table table(columns);
-  table.add(story.heads);
-  for (const std::vector<std::string>& row : story.rows) table.add(row);
-  return fmt::format("\n{}\n{}", title, table.text());
+std::string path_text(const char* title, const Counterexample& found, const ProblemSpec& spec) {
+  if (found.path.is_null() || found.path["steps"].empty()) return "";
+  return fmt::format("\n{}\n{}", title, counterexample_text(found, spec, ""));
 }
 
 }  // namespace
@@ -262,11 +253,10 @@ std::string explanation_text(const Json& explanation, const ProblemSpec& spec) {
                  {"delay", delay_text(explanation, spec)}};
   const bool has_silence = explanation.contains("silence");
   if (has_silence) facts.emplace_back("silence", silence_text(explanation["silence"], spec));
-  std::string text = facts_text(facts) +
-                     way_text("shortest path out of the invariance set", as_requirement(explanation), spec);
+  std::string text =
+      facts_text(facts) + path_text("shortest path out of the invariance set", path_of(explanation), spec);
   if (has_silence)
-    text += way_text("shortest path under the communication-loss rule", as_silence_requirement(explanation),
-                     spec);
+    text += path_text("shortest path under the communication-loss rule", silent_path(explanation), spec);
   text += "\n";
   for (const Json& sentence : explanation["sentences"]) text += text_of(sentence) + "\n";
   return text;

@@ -58,13 +58,13 @@ std::string visit_button(std::size_t way, std::size_t sample, const std::string&
       sample, name.empty() ? "" : " aria-label=\"" + name + "\"", label);
 }
 
-std::string steps_table(std::size_t way, const StoryTable& story) {
+std::string steps_table(std::size_t way, const CounterexampleTable& table) {
   std::vector<std::string> heads;
-  for (const std::string& head : story.heads) heads.push_back(html_line(head));
+  for (const std::string& head : table.heads) heads.push_back(html_line(head));
   std::string rows;
-  for (std::size_t s = 0; s < story.rows.size(); ++s) {
+  for (std::size_t s = 0; s < table.rows.size(); ++s) {
     std::vector<std::string> cells;
-    for (const std::string& cell : story.rows[s]) cells.push_back(html_line(cell));
+    for (const std::string& cell : table.rows[s]) cells.push_back(html_line(cell));
     cells.front() += " " + visit_button(way, s, "Show", fmt::format("Show step {} in the picture", s));
     rows += html_row(cells);
   }
@@ -81,11 +81,12 @@ std::string failure(std::size_t& way, const Json& entry, const ProblemSpec& spec
   std::string html = fmt::format("<h3>{}</h3>\n", html_line(entry["name"].get<std::string>()));
   if (!entry["reaches_outside"].is_null())
     html += "<p>" + html_line(capital(outside_text(entry, spec))) + ".</p>\n";
-  if (!has_story(entry)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
+  if (!has_steps(entry)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
   html += "<p>";
-  for (const std::string& sentence : story_sentences(entry, spec)) html += html_line(sentence) + " ";
+  const Counterexample found = counterexample_of(entry);
+  for (const std::string& sentence : counterexample_sentences(found, spec)) html += html_line(sentence) + " ";
   html += "</p>\n<p>" + visit_button(way, 0, "Show in the picture", "") + "</p>\n";
-  return html + steps_table(way++, story_table(entry, spec));
+  return html + steps_table(way++, counterexample_table(found, spec));
 }
 
 }  // namespace

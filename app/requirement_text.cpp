@@ -40,21 +40,6 @@ std::string side_text(const Json& side) {
   return fmt::format("{} {} its grid", text_of(side["state"]), text_of(side["side"]));
 }
 
-/// The story as a table and in sentences.
-std::string story_text(const Json& entry, const ProblemSpec& spec) {
-  const StoryTable story = story_table(entry, spec);
-  std::vector<Table::Align> columns(story.heads.size(), Table::Align::left);
-  std::fill_n(columns.begin(), story.numbers, Table::Align::right);
-  Table table(columns);
-  std::vector<std::string> heads = story.heads;
-  heads.front() = "  " + heads.front();
-  table.add(heads);
-  for (const std::vector<std::string>& row : story.rows) table.add(row);
-  std::string text = table.text() + "\n";
-  for (const std::string& sentence : story_sentences(entry, spec)) text += "  " + sentence + "\n";
-  return text;
-}
-
 std::string value_cell(const Json& sample, const std::string& key) {
   if (sample[key + "_status"] == "unbounded") return "unbounded";
   return sample[key].is_null() ? "-" : grouped(sample[key]);
@@ -65,7 +50,7 @@ std::string time_cell(const Json& time) {
 }
 
 /// A row but for its number. @param key what states are judged by; empty: not shown
-std::vector<std::string> story_row(const Json& sample, const std::string& key, const ProblemSpec& spec) {
+std::vector<std::string> table_row(const Json& sample, const std::string& key, const ProblemSpec& spec) {
   const bool is_step = sample.contains("action");
   std::vector<std::string> row;
   for (const Json& value : sample["state"]) row.push_back(fmt::format("{:.6g}", value.get<double>()));
@@ -107,15 +92,15 @@ GoalWords goal_words(GoalThen then) {
           .lost = "the state is not nearer to the goal"};
 }
 
-std::string end_text(const Json& story, const ProblemSpec& spec) {
-  const std::string end = text_of(story["end"]);
+std::string end_text(const Json& path, const ProblemSpec& spec) {
+  const std::string end = text_of(path["end"]);
   const GoalWords words = goal_words(spec.goal_then);
   if (end == "outside_safe_set") return "the state is no longer safe";
-  if (end == "left_domain") return "the state leaves the domain, " + side_text(story["left_side"]);
+  if (end == "left_domain") return "the state leaves the domain, " + side_text(path["left_side"]);
   if (end == "unsafe_between_samples") return "the motion to the next sample is not safe";
   if (end == "arrived") return words.arrived;
   if (end == "never_arrives")
-    return (story["end_sample"].is_null() ? "the state may have left the domain: " : "the state repeats: ") +
+    return (path["end_sample"].is_null() ? "the state may have left the domain: " : "the state repeats: ") +
            words.never;
   if (end == "time_lost") return words.lost;
   if (end == "not_allowed") return "their joint input is one that 'allow' forbids";
@@ -126,13 +111,12 @@ std::string end_text(const Json& story, const ProblemSpec& spec) {
   return "no joint input is allowed";
 }
 
-/// The story of agents who follow their rules, up to the state in which coordination cannot help any more.
-std::vector<std::string> silent_sentences(const Json& entry, const ProblemSpec& spec) {
-  const Json& story = entry["counterexample"];
+/// Agents who follow their rules, up to the state in which coordination cannot help any more.
+std::vector<std::string> silent_sentences(const Json& path, const ProblemSpec& spec) {
   std::map<std::string, std::int64_t> count;
-  for (const Json& step : story["steps"]) ++count[text_of(step["action"])];
+  for (const Json& step : path["steps"]) ++count[text_of(step["action"])];
   const std::int64_t later = count["afterwards"] + count["evasive"];
-  const std::string end = end_text(story, spec);
+  const std::string end = end_text(path, spec);
   if (later == 0)
     return {fmt::format("The agents follow the communication-loss rule, and after {} {}.",
                         steps_text(count["silent"], spec), end)};
@@ -148,10 +132,10 @@ std::vector<std::string> silent_sentences(const Json& entry, const ProblemSpec& 
   return sentences;
 }
 
-bool is_all_alone(const Json& entry, const ProblemSpec& spec) {
+bool is_all_alone(const Json& name, const ProblemSpec& spec) {
   const auto& all = spec.coordination.partitions;
-  const auto named = std::find_if(
-      all.begin(), all.end(), [&](const auto& partition) { return entry["partition"] == partition.name; });
+  const auto named =
+      std::find_if(all.begin(), all.end(), [&](const auto& partition) { return name == partition.name; });
   const auto& classes = (named == all.end() ? all.front() : *named).classes;
   return std::all_of(classes.begin(), classes.end(), [](const auto& agents) { return agents.size() == 1; });
 }
@@ -241,18 +225,26 @@ std::string failure_text(const Json& entry, const ProblemSpec& spec) {
   if (!entry["reaches_outside"].is_null()) text += fmt::format("  FAILS: {}.\n", outside_text(entry, spec));
   if (entry["counterexample"]["state"].is_null()) return text;
   text += fmt::format("  FAILS: {}.\n", cell_failures(entry, spec)) + nearest_text(entry, spec);
-  return has_story(entry) ? text + "\n" + story_text(entry, spec) : text;
+  if (!has_steps(entry)) return text;
+  const Counterexample found = counterexample_of(entry);
+  text += "\n" + counterexample_text(found, spec, "  ") + "\n";
+  for (const std::string& sentence : counterexample_sentences(found, spec)) text += "  " + sentence + "\n";
+  return text;
 }
 
-bool has_story(const Json& entry) {
+bool has_steps(const Json& entry) {
   REQUIRES(entry["holds"] == false);
   return entry["counterexample"]["end"] != "too_risky";
 }
 
-StoryTable story_table(const Json& entry, const ProblemSpec& spec) {
+Counterexample counterexample_of(const Json& entry) {
   REQUIRES(!entry["counterexample"]["state"].is_null());
-  const std::string key = entry["kind"] == "invariant" ? "" : value_key(entry);
-  StoryTable table;
+  return {.path = entry["counterexample"], .kind = traits_of(entry).kind, .partition = entry["partition"]};
+}
+
+CounterexampleTable counterexample_table(const Counterexample& found, const ProblemSpec& spec) {
+  const std::string key = found.kind == RequirementKind::invariant ? "" : traits(found.kind).value;
+  CounterexampleTable table;
   table.heads = {"step"};
   for (const StateSpec& state : spec.states) table.heads.push_back(column_heading(state.name, state.unit));
   if (!key.empty()) table.heads.push_back(words_of(key));
@@ -260,28 +252,39 @@ StoryTable story_table(const Json& entry, const ProblemSpec& spec) {
   table.numbers = table.heads.size();
   table.heads.emplace_back("action");
   for (const AgentSpec& agent : spec.agents) table.heads.push_back(agent.name);
-  const Json& story = entry["counterexample"];
-  Json samples = story["steps"];
-  if (!story["end_sample"].is_null()) samples.push_back(story["end_sample"]);
+  Json samples = found.path["steps"];
+  if (!found.path["end_sample"].is_null()) samples.push_back(found.path["end_sample"]);
   for (const Json& sample : samples) {
-    std::vector<std::string> row = story_row(sample, key, spec);
+    std::vector<std::string> row = table_row(sample, key, spec);
     row.insert(row.begin(), grouped(std::uint64_t{table.rows.size()}));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
+std::string counterexample_text(const Counterexample& found, const ProblemSpec& spec,
+                                const std::string& indent) {
+  CounterexampleTable parts = counterexample_table(found, spec);
+  std::vector<Table::Align> columns(parts.heads.size(), Table::Align::left);
+  std::fill_n(columns.begin(), parts.numbers, Table::Align::right);
+  Table table(columns);
+  parts.heads.front() = indent + parts.heads.front();
+  table.add(parts.heads);
+  for (const std::vector<std::string>& row : parts.rows) table.add(row);
+  return table.text();
+}
+
 namespace {
 
 /// Adds how far the cell of the last state reaches beyond bounds of `safe` that its centre keeps.
-void add_reach(const Json& story, const ProblemSpec& spec, std::vector<std::string>& sentences) {
-  if (story["end"] != "outside_safe_set" || story["end_sample"].is_null()) return;
+void add_reach(const Json& path, const ProblemSpec& spec, std::vector<std::string>& sentences) {
+  if (path["end"] != "outside_safe_set" || path["end_sample"].is_null()) return;
   if (spec.abstraction.safe != Membership::inner) return;
   std::vector<std::string> parts;
   for (const StateBound& bound : state_bounds(spec.safe, spec.states.size())) {
     const StateSpec& state = spec.states[bound.state];
     if (state.discrete) continue;
-    const auto centre = story["end_sample"]["state"][state.name].get<double>();
+    const auto centre = path["end_sample"]["state"][state.name].get<double>();
     const double half = nearest_double(state.grid.step) / 2, limit = nearest_double(bound.value);
     const double end = bound.is_upper ? centre + half : centre - half;
     const bool is_kept = bound.is_upper ? centre <= limit : centre >= limit;
@@ -292,65 +295,63 @@ void add_reach(const Json& story, const ProblemSpec& spec, std::vector<std::stri
 }
 
 /// Adds the proven number beside the seen one: enclosures are wider than motion.
-void add_seen(const Json& story, const ProblemSpec& spec, std::vector<std::string>& sentences) {
-  if (story["proven"].is_null()) return;
-  const Json& first = story["steps"].front()["action"];
+void add_seen(const Json& path, const ProblemSpec& spec, std::vector<std::string>& sentences) {
+  if (path["proven"].is_null()) return;
+  const Json& first = path["steps"].front()["action"];
   const bool is_inside = first == "independent" || first == "silent";
   const char* const set = !is_inside                                      ? "the safe set"
                           : first == "silent" && spec.silence->has_then() ? "the silence set"
                                                                           : "the invariance set";
-  const std::string seen = story["seen"].is_null() ? fmt::format("stayed in {} for all simulated steps", set)
-                                                   : fmt::format("left {} after {}", set,
-                                                                 steps_text(number_of(story["seen"]), spec));
-  const std::string proven = steps_text(number_of(story["proven"]), spec);
+  const std::string seen = path["seen"].is_null() ? fmt::format("stayed in {} for all simulated steps", set)
+                                                  : fmt::format("left {} after {}", set,
+                                                                steps_text(number_of(path["seen"]), spec));
+  const std::string proven = steps_text(number_of(path["proven"]), spec);
   sentences.push_back(fmt::format("{}. A nominal simulation from the first state {}.",
                                   is_inside ? "Proven: " + proven : "On the grid this takes " + proven,
                                   seen));
 }
 
-std::vector<std::string> way_sentences(const Json& entry, const ProblemSpec& spec) {
-  const Json& story = entry["counterexample"];
-  const Json& steps = story["steps"];
-  if (steps.empty() && story["end"] == "outside_safe_set") return {"The first state is not safe."};
+std::vector<std::string> path_sentences(const Counterexample& found, const ProblemSpec& spec) {
+  const Json& path = found.path;
+  const Json& steps = path["steps"];
+  if (steps.empty() && path["end"] == "outside_safe_set") return {"The first state is not safe."};
   const auto count = [&steps](const char* action) {
     return std::count_if(steps.begin(), steps.end(),
                          [action](const Json& step) { return step["action"] == action; });
   };
   if (count("together") > 0)
     return {fmt::format("All agents coordinate on the shortest path, and after {} {}.",
-                        steps_text(count("together"), spec), end_text(story, spec))};
-  if (requirement_traits(entry["kind"].get<std::string>()).kind == RequirementKind::min_silence)
-    return silent_sentences(entry, spec);
+                        steps_text(count("together"), spec), end_text(path, spec))};
+  if (found.kind == RequirementKind::min_silence) return silent_sentences(path, spec);
   const std::int64_t alone = count("independent") + count("approaching");
   const std::int64_t evasive = count("evasive");
   std::vector<std::string> sentences;
   if (alone > 0) {
-    const std::string text =
-        fmt::format("Each {} independently takes permitted actions, and after {}",
-                    is_all_alone(entry, spec) ? "agent" : "class of agents", steps_text(alone, spec));
-    if (evasive == 0 && story["end"] != "no_allowed_action")
-      return {fmt::format("{} {}.", text, end_text(story, spec))};
+    const std::string text = fmt::format("Each {} independently takes permitted actions, and after {}",
+                                         is_all_alone(found.partition, spec) ? "agent" : "class of agents",
+                                         steps_text(alone, spec));
+    if (evasive == 0 && path["end"] != "no_allowed_action")
+      return {fmt::format("{} {}.", text, end_text(path, spec))};
     sentences.push_back(text + " it is too late.");
   }
   if (evasive == 0) {
-    sentences.push_back(fmt::format("Then {}.", end_text(story, spec)));
+    sentences.push_back(fmt::format("Then {}.", end_text(path, spec)));
     return sentences;
   }
   const char* const whatever = spec.controller.synthesis == Synthesis::maximal
                                    ? "Even if all agents then coordinate"
                                    : "With inputs that the controller may then choose";
   sentences.push_back(
-      fmt::format("{}, after {} {}.", whatever, steps_text(evasive, spec), end_text(story, spec)));
+      fmt::format("{}, after {} {}.", whatever, steps_text(evasive, spec), end_text(path, spec)));
   return sentences;
 }
 
 }  // namespace
 
-std::vector<std::string> story_sentences(const Json& entry, const ProblemSpec& spec) {
-  REQUIRES(!entry["counterexample"]["state"].is_null());
-  std::vector<std::string> sentences = way_sentences(entry, spec);
-  add_reach(entry["counterexample"], spec, sentences);
-  add_seen(entry["counterexample"], spec, sentences);
+std::vector<std::string> counterexample_sentences(const Counterexample& found, const ProblemSpec& spec) {
+  std::vector<std::string> sentences = path_sentences(found, spec);
+  add_reach(found.path, spec, sentences);
+  add_seen(found.path, spec, sentences);
   return sentences;
 }
 

@@ -30,23 +30,32 @@ namespace coordreq {
 
 /// Why it fails, in one line; empty if it holds.
 [[nodiscard]] std::string failure_line(const Json& entry, const ProblemSpec& spec);
-/// failure_line() with the story of its counterexample: lines that end in newlines.
+/// failure_line() with its counterexample: lines that end in newlines.
 [[nodiscard]] std::string failure_text(const Json& entry, const ProblemSpec& spec);
 
-/// There is more to tell than the worst cell. @pre it fails
-[[nodiscard]] bool has_story(const Json& entry);
+/// The counterexample has steps to tell of, not just the worst cell. @pre it fails
+[[nodiscard]] bool has_steps(const Json& entry);
+
+/// A counterexample with a first state, as JSON has it.
+struct Counterexample {
+  const Json& path;
+  RequirementKind kind;
+  const Json& partition;  ///< its name; null: of all agents together
+};
+[[nodiscard]] Counterexample counterexample_of(const Json& entry);
 
 /// One row a sample: where, what is left, and what each agent does next.
-struct StoryTable {
+struct CounterexampleTable {
   std::vector<std::string> heads;
   std::vector<std::vector<std::string>> rows;  ///< [sample][head]; the first cell is the number of the sample
   std::size_t numbers = 0;                     ///< so many of the first columns hold numbers
 };
-/// @pre the counterexample has a state, likewise below
-[[nodiscard]] StoryTable story_table(const Json& entry, const ProblemSpec& spec);
-
-/// The story in sentences.
-[[nodiscard]] std::vector<std::string> story_sentences(const Json& entry, const ProblemSpec& spec);
+[[nodiscard]] CounterexampleTable counterexample_table(const Counterexample& found, const ProblemSpec& spec);
+/// The table as text. @param indent before the head of its first column
+[[nodiscard]] std::string counterexample_text(const Counterexample& found, const ProblemSpec& spec,
+                                              const std::string& indent);
+[[nodiscard]] std::vector<std::string> counterexample_sentences(const Counterexample& found,
+                                                                const ProblemSpec& spec);
 
 /// All of an analysis; empty if there are none.
 [[nodiscard]] std::string requirements_text(const Json& requirements, const ProblemSpec& spec);
