@@ -55,7 +55,10 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
                                   return values[at(cell)];
                                 };
                               }};
-  for (const AnswerPolicy& answer : problem.policies) cell_policies_.push_back(answer.make(context));
+  for (const AnswerPolicy& answer : problem.policies) {
+    cell_policies_.push_back(answer.make(context));
+    then_.push_back(answer.make_then == nullptr ? nullptr : answer.make_then(context));
+  }
   for (InputClass& input_class : classes_) {
     input_class.tabulate();
     class_parts_.push_back(input_class.parts());
@@ -94,7 +97,7 @@ void ActionChooser::find_nominal() {
 
 std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<const Rational> measured,
                                                   Turn turn, NextStates& next, RandomStream& random) {
-  CellPolicy& cell_policy = *cell_policies_[turn.policy];
+  CellPolicy& cell_policy = *(turn.is_after_silence ? then_ : cell_policies_)[turn.policy];
   const AnswerPolicy& policy = problem_.policies[turn.policy];
   compared_ = policy.is_anywhere ? problem_.values.at(policy.delay) : delay_;
   const Numbers& admissible = controller(cell);

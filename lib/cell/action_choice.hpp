@@ -15,18 +15,12 @@
 #include "cell/next_margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"
+#include "cell/simulation.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/packed_pairs.hpp"
 #include "model/input_class.hpp"
 
 namespace coordreq {
-
-/// How agents choose among the actions that are open to them.
-enum class Policy : std::uint8_t {
-  random,       ///< uniformly
-  adversarial,  ///< together, for the worst next cell
-  prefer,       ///< what their `prefer` likes best
-};
 
 /// The data of a closed loop. @pre unchecked: all parts belong together and outlive the users of this object.
 struct LoopProblem {
@@ -49,6 +43,11 @@ struct LoopProblem {
 
   /// [cells]; DelayLayers names what has none.
   [[nodiscard]] std::span<const std::int32_t> delay() const { return values.at(policies.front().delay); }
+  /// [cells] Runs start where they are not negative: delays, or the steps of a policy about all of S, the
+  /// last.
+  [[nodiscard]] std::span<const std::int32_t> start_steps() const {
+    return policies.back().is_anywhere ? values.at(policies.back().delay) : delay();
+  }
 };
 
 /// The disturbances of one period, and the measurement errors at its end.
@@ -85,6 +84,7 @@ class ActionChooser {
   struct Turn {
     std::size_t policy = 0;
     std::int32_t countdown = 0;
+    bool is_after_silence = false;  ///< they go by what comes after it (AnswerPolicy::make_then)
   };
   /// @param next begun at the true state with what nature does
   /// @param measured the state as it was measured; its cell is `cell`, in K, or in S if the policy is about
@@ -136,7 +136,7 @@ class ActionChooser {
   CellPosts posts_;
   AdmissibleInputs inputs_;
   KeptInputs* controller_;
-  std::vector<std::unique_ptr<CellPolicy>> cell_policies_;
+  std::vector<std::unique_ptr<CellPolicy>> cell_policies_, then_;  ///< [policy]
   std::vector<InputClass> classes_;
   std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
   NextMargin margin_;

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cell/simulate.hpp"
+#include "cell/simulation.hpp"
+#include "results/results_reader.hpp"
 
 // Refuses simulations that do not fit the results file.
 namespace coordreq {

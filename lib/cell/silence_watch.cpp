@@ -4,16 +4,10 @@
 
 #include "answers/step_codes.hpp"
 #include "base/index.hpp"
+#include "cell/schedule.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-namespace {
-
-std::int32_t one_less(std::int32_t steps) {
-  return steps == kUnbounded ? steps : std::max(steps - 1, 0);
-}
-
-}  // namespace
 
 SilenceWatch::SilenceWatch(const ResultsReader& results, std::size_t partition, CellController& controller)
     : controller_(controller),
@@ -36,14 +30,10 @@ SilenceWatch::SilenceWatch(const ResultsReader& results, std::size_t partition, 
   left_.resize(policies_.size());
 }
 
-std::int32_t SilenceWatch::steps(std::size_t policy, std::int64_t cell) {
-  return steps_[policy](cell);
-}
-
 /// The most steps of the cells that the state may be in.
 std::int32_t SilenceWatch::most_steps(std::size_t policy, const LogPlace& place) {
   std::int32_t most = kOutsideSafe;
-  for (const std::int64_t cell : place.cells) most = std::max(most, steps(policy, cell));
+  for (const std::int64_t cell : place.cells) most = std::max(most, steps_[policy](cell));
   return most;
 }
 
@@ -51,7 +41,7 @@ SilenceWatch::Steps SilenceWatch::begun(std::size_t policy, const LogPlace& plac
   if (has_aim(policy) && has_arrived_) return std::nullopt;
   const std::int32_t most = most_steps(policy, place);
   if (most < 0) return std::nullopt;
-  return most >= connection_delay_ ? most : 0;
+  return countdown_from(most, connection_delay_);
 }
 
 void SilenceWatch::look_for_aims(const LogPlace& place) {

@@ -39,12 +39,11 @@ class SilenceWatch {
   /// The sample after a step. @returns whether it tolerates less silence than the countdown promised
   [[nodiscard]] bool arrive(const LogPlace& place, Contact contact);
   /// The delay of a cell: steps, kUnbounded, -1 outside K, -2 outside S.
-  [[nodiscard]] std::int32_t delay(std::int64_t cell) { return steps(0, cell); }
+  [[nodiscard]] std::int32_t delay(std::int64_t cell) { return steps_.front()(cell); }
 
  private:
   using Steps = std::optional<std::int32_t>;
 
-  [[nodiscard]] std::int32_t steps(std::size_t policy, std::int64_t cell);
   [[nodiscard]] std::int32_t most_steps(std::size_t policy, const LogPlace& place);
   [[nodiscard]] Steps begun(std::size_t policy, const LogPlace& place);
   [[nodiscard]] bool keeps(std::size_t policy, const LogPlace& place,

@@ -3,26 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
-#include <limits>
 #include <map>
+#include <utility>
 
-#include "answers/blind/answer.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/one_cell/kept_inputs.hpp"
 #include "answers/paths.hpp"
 #include "answers/plan.hpp"
-#include "answers/silence/answer.hpp"
 #include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
 #include "cell/check_simulation.hpp"
-#include "cell/invariant_cells.hpp"
+#include "cell/closed_loop.hpp"
 #include "cell/lossy_network.hpp"
 #include "cell/risk_values.hpp"
 #include "cell/state_text.hpp"
 #include "cell/write_runs.hpp"
-#include "choices/forbidden_choices.hpp"
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"
 #include "reach/build_abstraction.hpp"
@@ -30,7 +26,6 @@
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
-#include "spec/sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -87,43 +82,37 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
 std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, const SimulationOptions& options) {
   const std::string asked = options.blind ? "blind" : options.silent ? "silence" : "";
   std::vector<AnswerPolicy> policies = answer_policies(spec);
-  const std::string first = policies.front().delay;
-  if (options.silent && spec.silence && spec.silence->has_then()) policies.push_back(afterwards_policy());
-  std::erase_if(policies, [&](const AnswerPolicy& policy) {
-    if (policy.delay == first) return false;
-    return policy.delay.empty() ||
-           (asked.empty() ? policy.is_on_request : policy.name != asked && policy.name != "afterwards");
+  std::erase_if(policies, [&, first = policies.front().delay](const AnswerPolicy& policy) {
+    const bool is_left = asked.empty() ? policy.is_on_request : policy.name != asked;
+    return policy.delay != first && (policy.delay.empty() || is_left);
   });
   return policies;
-}
-
-std::optional<std::int64_t> silent_steps_of(const SimulationOptions& options) {
-  if (!options.silent) return std::nullopt;
-  return options.silent_steps.value_or(kUnbounded);
 }
 
 /// Paths of the fields that a loop reads.
 std::vector<std::string> loop_paths(const ProblemSpec& spec, const std::vector<AnswerPolicy>& policies) {
   std::vector<std::string> paths;
+  const auto add = [&paths](const std::string& path) {
+    if (!path.empty() && std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+  };
   for (const AnswerPolicy& policy : policies) {
-    paths.push_back(policy.is_on_request ? policy.countdown() : policy.delay);
-    if (!policy.aim.path.empty()) paths.push_back(policy.aim.path);
+    add(policy.is_on_request ? policy.countdown() : policy.delay);
+    add(policy.aim.path);
   }
   // Runs end in such a goal, whatever agents go by.
-  const std::string arrival = coordreq::paths::kArrival;
-  if (spec.ends_at_goal() && std::ranges::find(paths, arrival) == paths.end()) paths.push_back(arrival);
+  for (const AnswerPolicy& policy : answer_policies(spec)) {
+    if (spec.ends_at_goal()) add(policy.aim.path);
+  }
   return paths;
 }
 
 /// Tables that are small beside arrays over cells, for many threads.
 class LoadedTables : public ByteTables {
  public:
-  /// Loads the tables of one partition.
-  LoadedTables(const ResultsReader& results, const PartitionSpec& partition) {
-    const ProblemSpec& spec = results.spec();
-    for (std::size_t c = 0; c < partition.classes.size(); ++c) {
-      if (!has_silent_table(spec, partition, c)) continue;
-      const std::string path = paths::silent(spec, partition, c);
+  /// Loads those that policies read in a partition.
+  LoadedTables(const ResultsReader& results, const std::vector<AnswerPolicy>& policies,
+               const PartitionSpec& partition) {
+    for (const std::string& path : paths_of(results.spec(), policies, partition)) {
       const Field& field = results.field(path);
       Table& table = tables_[path];
       table.bytes = results.bytes(field);
@@ -142,14 +131,12 @@ class LoadedTables : public ByteTables {
     return {first, first + static_cast<std::ptrdiff_t>(table.shape.back())};
   }
 
-  /// Bytes of them.
-  [[nodiscard]] static double size(const ResultsReader& results) {
+  /// Bytes of those of all partitions.
+  [[nodiscard]] static double size(const ResultsReader& results, const std::vector<AnswerPolicy>& policies) {
     double bytes = 0;
     for (const PartitionSpec& partition : results.spec().coordination.partitions) {
-      for (std::size_t c = 0; c < partition.classes.size(); ++c) {
-        if (has_silent_table(results.spec(), partition, c))
-          bytes += results.elements(results.field(paths::silent(results.spec(), partition, c)));
-      }
+      for (const std::string& path : paths_of(results.spec(), policies, partition))
+        bytes += results.elements(results.field(path));
     }
     return bytes;
   }
@@ -159,6 +146,18 @@ class LoadedTables : public ByteTables {
     std::vector<std::uint8_t> bytes;
     std::vector<std::int64_t> shape;
   };
+
+  [[nodiscard]] static std::vector<std::string> paths_of(const ProblemSpec& spec,
+                                                         const std::vector<AnswerPolicy>& policies,
+                                                         const PartitionSpec& partition) {
+    std::vector<std::string> paths;
+    for (const AnswerPolicy& policy : policies) {
+      if (policy.tables == nullptr) continue;
+      for (std::string& path : policy.tables(spec, partition)) paths.push_back(std::move(path));
+    }
+    return paths;
+  }
+
   std::map<std::string, Table> tables_;
   std::map<std::string, std::int64_t> lengths_;
 };
@@ -194,7 +193,8 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const auto states = static_cast<double>(spec.states.size());
   const auto disturbances = static_cast<double>(spec.disturbances.size());
   constexpr double kCopies = 2;  // of an array while it is read
-  const auto arrays = static_cast<double>(loop_paths(spec, loop_policies(spec, options)).size());
+  const std::vector<AnswerPolicy> policies = loop_policies(spec, options);
+  const auto arrays = static_cast<double>(loop_paths(spec, policies).size());
   double of_cell = (arrays + kCopies) * sizeof(std::int32_t);
   if (spec.controller.file) of_cell += static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
   if (options.is_lossy) of_cell += bytes_of_risk_values(spec);
@@ -207,9 +207,8 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const double of_list =
       std::min(static_cast<double>(KeptInputs::kMostBytes),
                cells * (KeptInputs::kBytesOfList + 8 * static_cast<double>(results.inputs().count())));
-  const double tables = options.blind ? LoadedTables::size(results) : 0;
-  return {.once = results.reading_bytes() + tables + of_cell * cells + abstraction_bytes(results) +
-                  2 * samples * (sample + step),
+  return {.once = results.reading_bytes() + LoadedTables::size(results, policies) + of_cell * cells +
+                  abstraction_bytes(results) + 2 * samples * (sample + step),
           .of_thread = kBytesOfPostThread + kBytesOfInput * static_cast<double>(results.inputs().count()) +
                        lists * of_list};
 }
@@ -218,14 +217,14 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   const ProblemSpec& spec = results.spec();
   const std::size_t partition = partition_of_loop(spec, options);
   check_options(spec, options);
-  RunOptions runs{.loop = {.steps = options.steps,
-                           .policy = options.policy,
-                           .disturbance = options.disturbance,
-                           .constant_disturbance = constant_disturbance(spec, options.constant_disturbance),
-                           .seed = options.seed,
-                           .until_goal = options.until_goal,
-                           .silent_steps = silent_steps_of(options)},
-                  .runs = options.runs};
+  LoopOptions runs{.steps = options.steps,
+                   .policy = options.policy,
+                   .disturbance = options.disturbance,
+                   .constant_disturbance = constant_disturbance(spec, options.constant_disturbance),
+                   .seed = options.seed,
+                   .until_goal = options.until_goal,
+                   .silent_steps = options.silent_steps.value_or(kUnbounded),
+                   .runs = options.runs};
   if (options.start) runs.start = start_state(results, *options.start);
   const auto enter = [&options](const char* stage) {
     if (options.entered) options.entered(stage);
@@ -234,16 +233,18 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   if (options.output) check_writable(*options.output);
   enter("running");
   const std::vector<AnswerPolicy> policies = loop_policies(spec, options);
-  const std::vector<std::string> paths = loop_paths(spec, policies);
   std::map<std::string, std::vector<std::int32_t>> values;
-  for (const std::string& path : paths) {
-    if (!values.contains(path)) values[path] = read_cells(results, path, partition);
-  }
-  const std::vector<std::int32_t>& delay = values[paths.front()];
-  const std::vector<std::int32_t>& start = values[options.silent ? paths::kSilence : paths.front()];
+  for (const std::string& path : loop_paths(spec, policies))
+    values[path] = read_cells(results, path, partition);
+  LoopProblem problem{.spec = &spec,
+                      .partition = &spec.coordination.partitions[partition],
+                      .policies = policies,
+                      .values = {},
+                      .connection_delay = spec.coordination.connection_delay};
+  for (const auto& [path, cells] : values) problem.values[path] = cells;
   if (runs.start) {
-    check_start(results, *runs.start, start, options.silent);
-  } else if (InvariantCells(spec, start).count() == 0) {
+    check_start(results, *runs.start, problem.start_steps(), options.silent);
+  } else if (!has_start(spec, problem.start_steps())) {
     throw UsageError(spec.memory.empty()
                          ? "the invariance set is empty: there is no state to start from"
                          : "the invariance set has no state with an empty memory to start from",
@@ -252,25 +253,18 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !spec.abstraction.between_samples;
   const Abstraction abstraction = is_stored ? results.abstraction() : build_abstraction(spec, team);
+  problem.abstraction = &abstraction;
   const std::optional<CellSet> beyond =
-      safe_beyond_limits(spec, abstraction, safe_cells(results.grid(), delay), team);
+      safe_beyond_limits(spec, abstraction, safe_cells(results.grid(), problem.delay()), team);
+  if (beyond) problem.safe_beyond = &*beyond;
   std::optional<PackedPairs> listed;
   if (spec.controller.file) {
     listed = {.inputs = results.inputs().count(),
               .bytes = results.bits(paths::kListed, all_cells(results.grid()))};
   }
-  std::optional<LoadedTables> tables;
-  if (options.blind) tables.emplace(results, spec.coordination.partitions[partition]);
-  LoopProblem problem{.spec = &spec,
-                      .abstraction = &abstraction,
-                      .partition = &spec.coordination.partitions[partition],
-                      .policies = policies,
-                      .values = {},
-                      .tables = tables ? &*tables : nullptr,
-                      .safe_beyond = beyond ? &*beyond : nullptr,
-                      .listed = listed ? &*listed : nullptr,
-                      .connection_delay = spec.coordination.connection_delay};
-  for (const auto& [path, cells] : values) problem.values[path] = cells;
+  if (listed) problem.listed = &*listed;
+  const LoadedTables tables(results, policies, *problem.partition);
+  problem.tables = &tables;
   std::optional<LossyNetwork> network;
   const RiskValues risks = options.is_lossy ? read_risk_values(results) : RiskValues();
   if (options.is_lossy) problem.network = &network.emplace(*spec.network);
@@ -286,77 +280,6 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
     write_runs(*options.output, results, options, simulation, team);
   }
   return simulation;
-}
-
-std::int64_t Simulation::count(Outcome outcome) const {
-  return std::count_if(traces.begin(), traces.end(),
-                       [outcome](const RunTrace& trace) { return trace.outcome == outcome; });
-}
-
-std::int64_t Simulation::steps() const {
-  std::int64_t sum = 0;
-  for (const RunTrace& trace : traces) sum += static_cast<std::int64_t>(trace.steps.size());
-  return sum;
-}
-
-std::int64_t Simulation::coordinated_steps() const {
-  std::int64_t sum = 0;
-  for (const RunTrace& trace : traces) sum += trace.coordinated_steps();
-  return sum;
-}
-
-std::int64_t Simulation::longest_silence() const {
-  std::int64_t longest = 0;
-  for (const RunTrace& trace : traces) longest = std::max(longest, trace.longest_silence());
-  return longest;
-}
-
-double Simulation::smallest_margin() const {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const RunTrace& trace : traces) smallest = std::min(smallest, trace.smallest_margin());
-  return smallest;
-}
-
-std::optional<std::size_t> Simulation::failure() const {
-  const bool is_lossy = partition.empty();
-  const auto found = std::find_if(traces.begin(), traces.end(), [is_lossy](const RunTrace& trace) {
-    if (trace.outcome == Outcome::not_followed) return true;
-    return is_lossy ? trace.outcome == Outcome::no_action : is_violation(trace.outcome);
-  });
-  if (found == traces.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - traces.begin());
-}
-
-std::string outcome_name(Outcome outcome) {
-  constexpr const char* kNames[] = {"completed",     "left_safely", "left_invariant", "no_action",
-                                    "reached_goal",  "late",        "not_allowed",    "not_followed",
-                                    "left_safe_set", "stuck",       "broke_promise"};
-  return kNames[static_cast<std::size_t>(outcome)];
-}
-
-std::vector<Outcome> outcomes(const ProblemSpec& spec) {
-  std::vector<Outcome> result;
-  const auto add = [&result](bool is_possible, std::initializer_list<Outcome> some) {
-    for (const Outcome outcome : some) {
-      if (is_possible) result.push_back(outcome);
-    }
-  };
-  add(true, {Outcome::completed, Outcome::left_safely, Outcome::left_invariant, Outcome::no_action,
-             Outcome::not_followed});
-  add(spec.silence.has_value(), {Outcome::left_safe_set, Outcome::stuck, Outcome::broke_promise});
-  add(spec.goal.has_value(), {Outcome::reached_goal, Outcome::late});
-  add(may_forbid_choices(spec), {Outcome::not_allowed});
-  return result;
-}
-
-std::string policy_name(Policy policy) {
-  constexpr const char* kNames[] = {"random", "adversarial", "prefer"};
-  return kNames[static_cast<std::size_t>(policy)];
-}
-
-std::string disturbance_name(Disturbance disturbance) {
-  constexpr const char* kNames[] = {"random", "extremes", "constant"};
-  return kNames[static_cast<std::size_t>(disturbance)];
 }
 
 }  // namespace coordreq

@@ -3,7 +3,8 @@
 #include <string>
 
 #include "base/thread_team.hpp"
-#include "cell/simulate.hpp"
+#include "cell/simulation.hpp"
+#include "results/results_reader.hpp"
 
 namespace coordreq {
 

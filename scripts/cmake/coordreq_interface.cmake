@@ -10,8 +10,8 @@ set(COORDREQ_PUBLIC_HEADERS
   answers/checking/tally.hpp
   verify/verify.hpp verify/verify_file.hpp
   export/formats.hpp export/cell_table.hpp
-  analysis/analyze.hpp cell/simulate.hpp
-  cell/simulate_runs.hpp)
+  analysis/analyze.hpp cell/simulate.hpp cell/simulation.hpp
+  cell/closed_loop.hpp)
 
 # `doc`: what Doxygen makes of them.
 list(TRANSFORM COORDREQ_PUBLIC_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/lib/ OUTPUT_VARIABLE doxygen_input)

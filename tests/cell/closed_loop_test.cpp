@@ -6,7 +6,6 @@
 #include <limits>
 #include <string>
 
-#include "cell/simulate_runs.hpp"
 #include "loop_fixture.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -235,7 +234,7 @@ TEST(RunTrace, LongestSilenceAndSmallestMarginOfAShortRun) {
 
 TEST(SimulateRuns, AreTheSameForAnyNumberOfThreads) {
   const LoopFixture loop(line_spec(10, "x + u + v", "\"saturate\""), {8, 7, 6, 5, 4, 3, 2, 1, 0, -2});
-  const RunOptions options{.loop = {.steps = 30}, .runs = 40};
+  const LoopOptions options{.steps = 30, .runs = 40};
   std::vector<std::vector<std::vector<double>>> found;
   for (const int threads : {1, 2, 5}) {
     ThreadTeam team(threads);
@@ -251,7 +250,7 @@ TEST(SimulateRuns, AreTheSameForAnyNumberOfThreads) {
 std::vector<int> starts_by_cell(const LoopFixture& loop, int cells) {
   ThreadTeam team(2);
   std::vector<int> counts(static_cast<std::size_t>(cells), 0);
-  for (const RunTrace& trace : simulate_runs(loop.problem(), {.loop = {.steps = 1}, .runs = 3000}, team)) {
+  for (const RunTrace& trace : simulate_runs(loop.problem(), {.steps = 1, .runs = 3000}, team)) {
     ++counts.at(static_cast<std::size_t>(trace.samples.front().state.front() + 0.5));
   }
   return counts;
@@ -274,7 +273,7 @@ TEST(SimulateRuns, NoneStartsBeyondAStopLimit) {
   EXPECT_NEAR(counts[1], 1000, 160);
   EXPECT_NEAR(counts[3], 500, 130);
   ThreadTeam team(1);
-  for (const RunTrace& trace : simulate_runs(loop.problem(), {.loop = {.steps = 1}, .runs = 200}, team)) {
+  for (const RunTrace& trace : simulate_runs(loop.problem(), {.steps = 1, .runs = 200}, team)) {
     EXPECT_GE(trace.samples.front().state.front(), 0);
     EXPECT_LE(trace.samples.front().state.front(), 3);
   }

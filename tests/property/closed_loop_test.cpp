@@ -10,7 +10,7 @@
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/paths.hpp"
-#include "cell/simulate_runs.hpp"
+#include "cell/closed_loop.hpp"
 #include "model/locate.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
@@ -101,8 +101,7 @@ void expect_runs_stay(RandomTime time) {
     for (std::size_t p = 0; p < analysed.plain.partitions.size(); ++p) {
       for (const Policy policy : {Policy::random, Policy::adversarial, Policy::prefer}) {
         for (const Disturbance kind : {Disturbance::random, Disturbance::extremes}) {
-          const RunOptions options{.loop = {.steps = 12, .policy = policy, .disturbance = kind, .seed = p},
-                                   .runs = 4};
+          const LoopOptions options{.steps = 12, .policy = policy, .disturbance = kind, .seed = p, .runs = 4};
           for (const RunTrace& trace : simulate_runs(analysed.problem(p), options, team)) {
             expect_sound(analysed, trace);
             expect_admissible(analysed, p, trace);

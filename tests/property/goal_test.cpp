@@ -13,8 +13,8 @@
 #include "answers/layers/answer.hpp"
 #include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
+#include "cell/closed_loop.hpp"
 #include "cell/margin.hpp"
-#include "cell/simulate_runs.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/plain_goal.hpp"
@@ -242,9 +242,8 @@ TEST(Goals, RunsEndInTheGoalThatEndsTheTaskAndInTime) {
           .safe_beyond = fast.beyond ? &*fast.beyond : nullptr,
           .connection_delay = spec.coordination.connection_delay};
       for (const Policy policy : {Policy::random, Policy::adversarial}) {
-        const RunOptions options{
-            .loop = {.steps = 12, .policy = policy, .disturbance = Disturbance::extremes, .seed = p},
-            .runs = 6};
+        const LoopOptions options{
+            .steps = 12, .policy = policy, .disturbance = Disturbance::extremes, .seed = p, .runs = 6};
         for (const RunTrace& trace : simulate_runs(problem, options, team)) {
           expect_end(spec, trace);
           some_arrive = some_arrive || (trace.arrived && !trace.steps.empty());

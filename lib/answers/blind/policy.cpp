@@ -79,6 +79,14 @@ class BlindPolicy : public CellPolicy {
   std::vector<Class> own_;
 };
 
+std::vector<std::string> silent_tables(const ProblemSpec& spec, const PartitionSpec& partition) {
+  std::vector<std::string> tables;
+  for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+    if (has_silent_table(spec, partition, c)) tables.push_back(paths::silent(spec, partition, c));
+  }
+  return tables;
+}
+
 }  // namespace
 
 /// Agents who see only themselves (contract, section 8): those who coordinate choose from C(x), and count
@@ -96,7 +104,8 @@ std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
            .is_on_request = true,
            .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
              return std::make_unique<BlindPolicy>(context);
-           }}};
+           },
+           .tables = silent_tables}};
 }
 
 }  // namespace coordreq

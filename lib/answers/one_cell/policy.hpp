@@ -97,6 +97,10 @@ struct AnswerPolicy {
   bool is_anywhere = false;  ///< the policy is about all cells of S
   bool is_by_agent = false;  ///< the policy is of agents, each by itself, in every partition
   std::unique_ptr<CellPolicy> (*make)(const PolicyContext& context) = nullptr;
+  /// What agents go by when the silence does not end within the steps asked for; null: they coordinate.
+  std::unique_ptr<CellPolicy> (*make_then)(const PolicyContext& context) = nullptr;
+  /// The paths of what it reads from ByteTables in a partition; null: nothing.
+  std::vector<std::string> (*tables)(const ProblemSpec& spec, const PartitionSpec& partition) = nullptr;
   /// The path of the actions of a class, by its number, if they are stored on request; null: they never are.
   std::string (*stored)(const ProblemSpec& spec, const PartitionSpec& partition, std::size_t c) = nullptr;
   /// Comments of a C header: where the policy holds ("on the way to the goal"), and about the policy, its

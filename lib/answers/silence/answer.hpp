@@ -38,7 +38,5 @@ extern const Answer silence_answer;
 [[nodiscard]] Fields silence_fields(const ProblemSpec& spec);
 void fill_silence_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 [[nodiscard]] std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec);
-/// The policy of `then`, when silence does not end. @pre unchecked: the spec has `then`
-[[nodiscard]] AnswerPolicy afterwards_policy();
 
 }  // namespace coordreq

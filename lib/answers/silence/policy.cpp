@@ -25,6 +25,11 @@ class SilencePolicy : public CellPolicy {
   SilentInputs inputs_;
 };
 
+template <SilentInputs::Part part>
+std::unique_ptr<CellPolicy> make_policy(const PolicyContext& context) {
+  return std::make_unique<SilencePolicy>(context, part);
+}
+
 }  // namespace
 
 /// Agents who act by rules while they are silent: each class chooses from its A_c(x), at every countdown
@@ -38,23 +43,12 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
            .delay = paths::kSilence,
            .is_on_request = true,
            .is_anywhere = true,
-           .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
-             return std::make_unique<SilencePolicy>(context, SilentInputs::Part::actions);
-           },
+           .make = make_policy<SilentInputs::Part::actions>,
+           .make_then = spec.silence->has_then() ? make_policy<SilentInputs::Part::then> : nullptr,
            .header = {.where = "under the communication-loss rule",
                       .purpose = "Agents that follow the communication-loss rule during silence.",
                       .countdown = "Steps of silence that are safe, or one of the numbers above.",
                       .allowed = "Whether class c may take its joint action a during silence."}}};
-}
-
-AnswerPolicy afterwards_policy() {
-  return {.name = "afterwards",
-          .delay = paths::kSilence,
-          .is_on_request = true,
-          .is_anywhere = true,
-          .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
-            return std::make_unique<SilencePolicy>(context, SilentInputs::Part::then);
-          }};
 }
 
 }  // namespace coordreq
