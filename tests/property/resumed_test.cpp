@@ -11,7 +11,7 @@
 #include "answers/blind/answer.hpp"
 #include "answers/blind/blind_layers.hpp"
 #include "answers/invariance/safe_set.hpp"
-#include "answers/network/network_problem.hpp"
+#include "answers/network/network_safety.hpp"
 #include "answers/risk/risk.hpp"
 #include "answers/silence/answer.hpp"
 #include "answers/silence/silent_actions.hpp"
@@ -251,15 +251,8 @@ TEST(Resumed, RisksAreTheSameFromAnyStep) {
         read_spec(text + R"(, "network": {"loss": [0.125, 0.25], "after_loss": 0.5}})", "random");
     const FastAnalysis fast(spec, team);
     const ExpectedRisks expected(*spec.network);
-    const NetworkProblem network = network_problem(spec, fast.controller, fast.hull);
-    const RiskProblem problem{.controller = &fast.controller,
-                              .invariant = network.invariant,
-                              .hull = &fast.hull,
-                              .partitions = network.partitions,
-                              .rules = std::vector<const Projections*>(network.partitions.size(), nullptr),
-                              .partition_of = {network.modes[0].partition, network.modes[1].partition},
-                              .expected = &expected,
-                              .horizon = 6};
+    const RiskProblem problem{
+        .network = network_problem(spec, fast.controller, fast.hull), .expected = &expected, .horizon = 6};
     std::vector<RiskState> seen;
     const RiskWatch record{.step = [&](const WaveStep& step, std::int64_t steps) {
       if (step.state.empty()) return;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <span>
 
-#include "engine/row_box.hpp"
 #include "ranks/exchange_row_bytes.hpp"
 
 namespace coordreq {
@@ -15,10 +15,8 @@ constexpr std::int64_t kGrain = 256;
 
 }  // namespace
 
-ModeTargets::ModeTargets(const RowEngine& engine, const RowHull& hull, const std::vector<NetworkMode>& modes,
-                         const CellSet& start)
+ModeTargets::ModeTargets(const RowEngine& engine, const std::vector<NetworkMode>& modes, const CellSet& start)
     : engine_(engine),
-      hull_(hull),
       modes_(modes),
       predecessors_(modes.size()),
       state_(modes.size(), State::untouched),
@@ -64,34 +62,9 @@ void ModeTargets::load(std::size_t mode, ThreadTeam& team) {
   });
 }
 
-std::vector<std::int64_t> ModeTargets::take_pending(std::size_t mode, std::int64_t& alive, ThreadTeam& team) {
-  std::vector<std::uint8_t> is_alive(static_cast<std::size_t>(engine_.rows()), 0);
-  std::vector<std::uint8_t> is_pending(is_alive.size(), 0);
-  const bool all = state_[mode] == State::untouched;
-  for_each_own_row(team, engine_.share(), engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
-    RowBox box;
-    std::vector<std::int64_t> counter;
-    RowPlace place(engine_.grid(), range.begin);
-    for (; place.row < range.end; place.advance(engine_.grid())) {
-      if (!any_set(sets_[mode].row(place.row))) continue;
-      bool meets = all;
-      if (!all) {
-        hull_.box(place, box);
-        for_each_row(engine_.grid(), 0, box.ranges, counter,
-                     [&](std::int64_t row) { meets = meets || is_changed(mode, row); });
-      }
-      is_alive[static_cast<std::size_t>(place.row)] = 1;
-      is_pending[static_cast<std::size_t>(place.row)] = meets ? 1 : 0;
-    }
-  });
-  std::vector<std::int64_t> rows;
-  for (std::size_t row = 0; row < is_pending.size(); ++row) {
-    if (is_pending[row] != 0) rows.push_back(static_cast<std::int64_t>(row));
-  }
-  alive = std::count(is_alive.begin(), is_alive.end(), 1);
+void ModeTargets::settle(std::size_t mode) {
   state_[mode] = State::settled;
   std::fill(changed_[mode].begin(), changed_[mode].end(), 0);
-  return rows;
 }
 
 void ModeTargets::shrink(std::size_t mode, std::int64_t row, ConstRow cells) {

@@ -1,54 +1,15 @@
 #include "answers/network/network_safety.hpp"
 
 #include <algorithm>
-#include <deque>
-#include <memory>
+#include <cstdint>
+#include <span>
 #include <utility>
 
-#include "answers/network/careful_actions.hpp"
+#include "answers/network/mode_sweep.hpp"
 #include "answers/network/mode_targets.hpp"
-#include "choices/independent_actions.hpp"
-#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-using Level = std::uint8_t;
-
-/// Rows that one thread takes at a time.
-constexpr std::int64_t kTaskRows = 16;
-
-/// One operator for each partition, with the objects to which it refers.
-class Operators {
- public:
-  Operators(const NetworkProblem& problem, ThreadTeam& team) {
-    const Controller& controller = *problem.controller;
-    const auto add = [&](const Projections& projections) {
-      operators_.push_back(
-          std::make_unique<IndependentActions<Level>>(projections, *controller.invariant, team.size()));
-    };
-    for (std::size_t p = 0; p < problem.partitions.size(); ++p) {
-      if (problem.rules[p] != nullptr) {
-        add(*problem.rules[p]);
-        continue;
-      }
-      const ActionGrouping& grouping =
-          groupings_.emplace_back(*controller.engine, problem.partitions[p], team);
-      if (problem.resynthesise) {
-        operators_.push_back(std::make_unique<CarefulActions>(grouping, team.size()));
-        continue;
-      }
-      add(projections_.emplace_back(controller, grouping, team));
-    }
-  }
-
-  [[nodiscard]] RowOperator<Level>& operator[](std::size_t partition) { return *operators_[partition]; }
-
- private:
-  std::deque<ActionGrouping> groupings_;
-  std::deque<Projections> projections_;
-  std::vector<std::unique_ptr<RowOperator<Level>>> operators_;
-};
 
 /// Every mode after its successors, as far as there are no cycles: so losses travel backwards through many
 /// modes in one round.
@@ -74,35 +35,39 @@ std::vector<std::size_t> successors_first(const std::vector<NetworkMode>& modes)
   return order;
 }
 
-/// Rows of a mode that have lost cells.
+/// Rows that have lost cells.
 struct Losses {
-  std::size_t mode = 0;
-  std::vector<std::int64_t> rows;
-  std::vector<Word> cells;  ///< the cells left in each row
+  struct Row {
+    std::size_t mode;
+    std::int64_t row;
+  };
+  std::vector<Row> rows;
+  std::vector<Word> cells;  ///< those left in each row
 };
 
 class SafetyIteration {
  public:
   SafetyIteration(const NetworkProblem& problem, const NetworkWatch& watch, ThreadTeam& team)
-      : engine_(*problem.controller->engine),
-        modes_(problem.modes),
+      : problem_(problem),
+        engine_(*problem.controller->engine),
         watch_(watch),
         team_(team),
-        operators_(problem, team),
-        over_(problem.over),
-        targets_(engine_, *problem.hull, problem.modes, *problem.invariant) {
-    for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine_, targets_.levels());
+        choices_(problem, problem.resynthesise ? Agreement::careful : Agreement::none, team),
+        targets_(engine_, problem.modes, *problem.invariant),
+        sweep_(problem, choices_, targets_.levels(), team),
+        losses_(static_cast<std::size_t>(team.size())) {
     if (watch.resumed != nullptr) resume(*watch.resumed);
   }
 
   /// Iterates in the order of successors_first(). @pre unchecked: the operators are monotone
   void run_in_any_order() {
-    const std::vector<std::size_t> order = successors_first(modes_);
+    const std::vector<std::size_t> order = successors_first(problem_.modes);
     for (bool changed = true; changed || hears_of_others();) {
       changed = false;
       for (const std::size_t mode : order) {
         while (targets_.has_changed(mode)) {
-          commit(sweep(mode));
+          sweep(mode);
+          commit();
           tell(engine_.share() == nullptr);
           changed = true;
         }
@@ -113,61 +78,45 @@ class SafetyIteration {
   /// Iterates in rounds, each from the sets that the round before has left.
   void run_synchronously() {
     for (bool changed = true; changed;) {
-      std::vector<Losses> lost;
-      for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
+      changed = false;
+      for (std::size_t mode = 0; mode < problem_.modes.size(); ++mode) {
         if (!targets_.has_changed(mode)) continue;
-        lost.push_back(sweep(mode));
+        sweep(mode);
         tell(false);
+        changed = true;
       }
-      for (const Losses& losses : lost) commit(losses);
+      commit();
       tell(true);
-      changed = engine_.share() == nullptr ? !lost.empty() : targets_.exchange();
+      if (engine_.share() != nullptr) changed = targets_.exchange();
     }
   }
 
-  NetworkSafety result() {
-    counts_.rows_visited = sum_of_all(engine_.share(), counts_.rows_visited);
-    counts_.rows_skipped = sum_of_all(engine_.share(), counts_.rows_skipped);
-    counts_.sweeps =
-        engine_.share() == nullptr ? counts_.sweeps : engine_.share()->ranks().greatest(counts_.sweeps);
-    return {targets_.take_sets(), counts_};
-  }
+  NetworkSafety result() { return {targets_.take_sets(), sweep_.counts()}; }
 
  private:
-  struct Worker {
-    Worker(const RowEngine& engine, const LevelRows<Level>& levels)
-        : posts(engine, levels), old(posts.lanes(), 0), next(posts.lanes(), 0), cells(engine.row_words()) {}
-    PostReader<Level> posts;
-    std::vector<Level> old;
-    std::vector<Level> next;
-    std::vector<Word> cells;
-    Losses losses;
-  };
-
-  Losses sweep(std::size_t mode) {
+  void sweep(std::size_t mode) {
     targets_.load(mode, team_);
-    std::int64_t alive = 0;
-    const std::vector<std::int64_t> rows = targets_.take_pending(mode, alive, team_);
-    const auto count = static_cast<std::int64_t>(rows.size());
-    team_.for_each(count, kTaskRows, [&](ThreadTeam::Range range, int w) {
-      Worker& worker = workers_[static_cast<std::size_t>(w)];
-      std::int64_t unit = -1;
-      for (std::int64_t i = range.begin; i < range.end; ++i) {
-        const std::int64_t row = rows[static_cast<std::size_t>(i)];
-        if (row / engine_.unit_rows() != unit) worker.posts.enter();
-        unit = row / engine_.unit_rows();
-        visit(mode, row, worker, w);
+    const CellSet& set = targets_.set(mode);
+    const auto has_changed = [&](std::int64_t row) { return targets_.is_changed(mode, row); };
+    const PendingRows rows = pending_rows(problem_, set, targets_.is_untouched(mode), has_changed, team_);
+    targets_.settle(mode);
+    const auto keep = [&](std::int64_t row, const std::uint8_t* next, int w) {
+      Losses& losses = losses_[static_cast<std::size_t>(w)];
+      const std::size_t begin = losses.cells.size();
+      losses.cells.resize(begin + engine_.row_words());
+      Word* const cells = losses.cells.data() + begin;
+      sweep_.kernels().top_bits(next, cells, static_cast<std::size_t>(engine_.row_length()));
+      if (std::ranges::equal(set.row(row), std::span(losses.cells).subspan(begin))) {
+        losses.cells.resize(begin);
+      } else {
+        losses.rows.push_back({mode, row});
       }
-    });
-    ++counts_.sweeps;
-    counts_.rows_visited += count;
-    counts_.rows_skipped += alive - count;
-    step_ = {.sweep = counts_.sweeps, .visited = count, .rows = alive};
-    return collect(mode);
+    };
+    sweep_.run(mode, targets_.levels(), rows, set, keep);
   }
 
   void resume(std::vector<CellSet>& sets) {
-    for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
+    for (std::size_t mode = 0; mode < sets.size(); ++mode) {
       for (const RowShare::Range run : held_rows(engine_.share(), engine_.rows())) {
         for (std::int64_t row = run.begin; row < run.end; ++row)
           targets_.shrink(mode, row, sets[mode].row(row));
@@ -183,62 +132,29 @@ class SafetyIteration {
   }
 
   /// @param whole whether work can be taken up from the sets, as those of all processes belong together
-  void tell(bool whole) {
-    if (!watch_.step) return;
-    std::vector<NumberRows> sets;
-    for (std::size_t mode = 0; whole && mode < modes_.size(); ++mode)
-      sets.push_back(rows_of(targets_.set(mode)));
-    step_.state = sets;
-    watch_.step(step_);
+  void tell(bool whole) const {
+    sweep_.report(watch_.step, std::span<const CellSet>(targets_.sets()).first(whole ? targets_.modes() : 0));
   }
 
-  void visit(std::size_t mode, std::int64_t row, Worker& worker, int w) {
-    const LevelKernels<Level>& kernels = worker.posts.kernels();
-    const auto n = static_cast<std::size_t>(engine_.row_length());
-    const ConstRow present = targets_.set(mode).row(row);
-    kernels.spread(present.data(), worker.old.data(), n);
-    const ConstRow over = over_ == nullptr ? ConstRow() : over_->row(row);
-    for_each_bit(over, [&worker](std::int64_t x) { worker.old[static_cast<std::size_t>(x)] = 0; });
-    // Beyond the row there are no cells.
-    std::fill(worker.old.begin() + static_cast<std::ptrdiff_t>(n), worker.old.end(), Level{0});
-    RowOperator<Level>& op = operators_[modes_[mode].partition];
-    const RowPlace place(engine_.grid(), row);
-    if (!op.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
-    kernels.top_bits(worker.next.data(), worker.cells.data(), n);
-    for (std::size_t k = 0; k < over.size(); ++k) worker.cells[k] |= over[k];
-    for (std::size_t k = 0; k < worker.cells.size(); ++k) worker.cells[k] &= present[k];
-    if (std::equal(present.begin(), present.end(), worker.cells.begin())) return;
-    worker.losses.rows.push_back(row);
-    worker.losses.cells.insert(worker.losses.cells.end(), worker.cells.begin(), worker.cells.end());
-  }
-
-  Losses collect(std::size_t mode) {
-    Losses all{.mode = mode, .rows = {}, .cells = {}};
-    for (Worker& worker : workers_) {
-      all.rows.insert(all.rows.end(), worker.losses.rows.begin(), worker.losses.rows.end());
-      all.cells.insert(all.cells.end(), worker.losses.cells.begin(), worker.losses.cells.end());
-      worker.losses.rows.clear();
-      worker.losses.cells.clear();
-    }
-    return all;
-  }
-
-  void commit(const Losses& losses) {
+  void commit() {
     const std::size_t words = engine_.row_words();
-    for (std::size_t i = 0; i < losses.rows.size(); ++i)
-      targets_.shrink(losses.mode, losses.rows[i], ConstRow(losses.cells).subspan(i * words, words));
+    for (Losses& losses : losses_) {
+      for (std::size_t i = 0; i < losses.rows.size(); ++i)
+        targets_.shrink(losses.rows[i].mode, losses.rows[i].row,
+                        ConstRow(losses.cells).subspan(i * words, words));
+      losses.rows.clear();
+      losses.cells.clear();
+    }
   }
 
+  const NetworkProblem& problem_;
   const RowEngine& engine_;
-  const std::vector<NetworkMode>& modes_;
   const NetworkWatch& watch_;
-  WaveStep step_;
   ThreadTeam& team_;
-  Operators operators_;
-  const CellSet* over_;  ///< cells whose posts are not looked at; null: none
+  ModeChoices choices_;
   ModeTargets targets_;
-  std::deque<Worker> workers_;
-  WaveCounts counts_;
+  ModeSweep<std::uint8_t> sweep_;
+  std::vector<Losses> losses_;  ///< [worker] not committed yet
 };
 
 }  // namespace

@@ -1,40 +1,14 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "answers/network/network_problem.hpp"
 #include "base/thread_team.hpp"
-#include "choices/controller.hpp"
 #include "engine/cell_set.hpp"
-#include "engine/row_hull.hpp"
-#include "engine/wave.hpp"
-#include "model/input_class.hpp"
+#include "engine/wave_watch.hpp"
 
 namespace coordreq {
-
-class Projections;
-
-/// One mode of a network: who is connected in a step, and which modes the next step can be in.
-struct NetworkMode {
-  std::size_t partition = 0;            ///< index into NetworkProblem::partitions
-  std::vector<std::size_t> successors;  ///< indices of modes; at least one
-};
-
-struct NetworkProblem {
-  const Controller* controller = nullptr;  ///< C in K, without the cells of a goal that ends the task
-  const CellSet* invariant = nullptr;      ///< K
-  const CellSet* over =
-      nullptr;  ///< G of a goal that ends the task, which is in every W(q); null: there is none
-  const RowHull* hull = nullptr;
-  std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each
-  /// [partition] A(x) in K of agents that act by rules; null: they choose from IND_C(x). The objects outlive
-  /// this one.
-  std::vector<const Projections*> rules;
-  std::vector<NetworkMode> modes;
-  bool resynthesise = false;
-};
 
 struct NetworkSafety {
   std::vector<CellSet> safe;  ///< [mode] W(q)

@@ -57,23 +57,6 @@ void save_state(Archive& archive, const RowShare* share, std::int64_t steps, dou
   for (const NumberRows& risks : state) serialise_rows(archive, share, risks);
 }
 
-RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected,
-                         const std::optional<RuleModes>& rules) {
-  const AnalysisContext& context = answers.context;
-  NetworkProblem network = network_problem(answers);
-  RiskProblem problem{.controller = network.controller,
-                      .invariant = network.invariant,
-                      .hull = network.hull,
-                      .partitions = std::move(network.partitions),
-                      .rules = rules ? rules->projections() : network.rules,
-                      .partition_of = {},
-                      .expected = &expected,
-                      .horizon = context.spec.risk->horizon,
-                      .is_safest = context.spec.risk->is_safest};
-  for (const NetworkMode& mode : network.modes) problem.partition_of.push_back(mode.partition);
-  return problem;
-}
-
 void find_risks(Answers& answers, const StageWork& work) {
   const AnalysisContext& context = answers.context;
   const RowShare* const share = context.shared_rows();
@@ -103,9 +86,13 @@ void find_risks(Answers& answers, const StageWork& work) {
                               },
                           .resumed = kept == StageStore::Kept::unfinished ? &state : nullptr};
     const ExpectedRisks expected(*context.spec.network);
+    RiskProblem problem{.network = network_problem(answers),
+                        .expected = &expected,
+                        .horizon = context.spec.risk->horizon,
+                        .is_safest = context.spec.risk->is_safest};
     std::optional<RuleModes> rules;
-    if (context.spec.silence) rules.emplace(answers, work.team);
-    result = find_risk(risk_problem(answers, expected, rules), watch, work.team);
+    if (context.spec.silence) problem.network.rules = rules.emplace(answers, work.team).projections();
+    result = find_risk(problem, watch, work.team);
   }
   for (const RiskRows& risks : result.risks)
     answer.figures.push_back(risk_figures(risks, invariant, share, work.team));

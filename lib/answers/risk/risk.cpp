@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <deque>
+#include <span>
 #include <utility>
 
+#include "answers/network/mode_sweep.hpp"
 #include "answers/risk/expected_levels.hpp"
-#include "answers/risk/mode_risk.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "engine/row_operations.hpp"
 #include "numeric/outward.hpp"
@@ -14,209 +14,107 @@
 namespace coordreq {
 namespace {
 
-/// Rows that one thread takes at a time.
-constexpr std::int64_t kTaskRows = 16;
-
-/// Numbers of rows to be worked out.
-using RowNumbers = std::vector<std::int64_t>;
-
-/// Calls `body(row, worker)` for rows, those of a unit one after the other, with `enter(worker)` before each
-/// unit.
-template <class Enter, class Body>
-void for_each_in_units(const RowEngine& engine, const RowNumbers& rows, ThreadTeam& team, const Enter& enter,
-                       const Body& body) {
-  team.for_each(std::ssize(rows), kTaskRows, [&](ThreadTeam::Range range, int worker) {
-    std::int64_t unit = -1;
-    for (std::int64_t i = range.begin; i < range.end; ++i) {
-      const std::int64_t row = rows[static_cast<std::size_t>(i)];
-      if (row / engine.unit_rows() != unit) enter(worker);
-      unit = row / engine.unit_rows();
-      body(row, worker);
-    }
-  });
-}
-
 class RiskIteration {
  public:
   RiskIteration(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team)
       : problem_(problem),
-        engine_(*problem.controller->engine),
-        going_on_(*problem.controller->invariant),
-        ends_early_(problem.controller->invariant != problem.invariant),
+        engine_(*problem.network.controller->engine),
+        invariant_(*problem.network.invariant),
+        going_on_(*problem.network.controller->invariant),
         watch_(watch),
         team_(team),
-        choices_(*problem.controller, problem.partitions, problem.rules, problem.is_safest, team) {
+        choices_(problem.network, problem.is_safest ? Agreement::safest : Agreement::none, team) {
     if (watch.resumed != nullptr) state_ = std::exchange(*watch.resumed, {});
-    if (state_.risks.empty()) state_.risks = first_risks(*problem.invariant, modes(), engine_.share());
-    const RowShare::Range own = own_rows(engine_.share(), engine_.rows());
-    for (std::int64_t row = own.begin; row < own.end; ++row) {
-      if (any_set(going_on_.row(row))) alive_.push_back(row);
-    }
+    if (state_.risks.empty()) state_.risks = first_risks(invariant_, modes(), engine_.share());
   }
 
-  void run() {
+  Risk run() {
     ExpectedLevels<std::uint32_t> expected(engine_, *problem_.expected);
-    const auto operators = choices_.operators<std::uint32_t>(team_.size());
-    std::deque<Worker<std::uint32_t>> workers;
-    for (int w = 0; w < team_.size(); ++w) workers.emplace_back(engine_, expected.of(0));
+    ModeSweep<std::uint32_t> sweep(problem_.network, choices_, expected.of(0), team_);
     std::vector<std::vector<std::uint8_t>> changed(modes());
     while (state_.steps < problem_.horizon) {
       if (!expected.update(state_.risks, changed, team_)) break;
       for (std::size_t mode = 0; mode < modes(); ++mode) {
+        if (mode > 0) tell(sweep, 0);
         changed[mode].assign(static_cast<std::size_t>(engine_.rows()), 0);
-        step(mode, expected, *operators[problem_.partition_of[mode]], workers, changed[mode]);
+        step(mode, expected, sweep, changed[mode]);
       }
       ++state_.steps;
-      tell();
+      tell(sweep, modes());
     }
+    return {.risks = {}, .rate = 0, .counts = sweep.counts()};
   }
 
   double rate() {
     ExpectedLevels<std::uint64_t> expected(engine_, *problem_.expected);
-    const auto operators = choices_.operators<std::uint64_t>(team_.size());
-    std::deque<Worker<std::uint64_t>> workers;
-    for (int w = 0; w < team_.size(); ++w) workers.emplace_back(engine_, expected.of(0));
+    ModeSweep<std::uint64_t> sweep(problem_.network, choices_, expected.of(0), team_);
+    std::vector<double> rates(static_cast<std::size_t>(team_.size()), 0);
     for (std::size_t number = 0; number < problem_.expected->different.size(); ++number) {
       expected.load(number, state_.risks, team_);
       for (std::size_t mode = 0; mode < modes(); ++mode) {
-        if (problem_.expected->of_mode[mode] != number) continue;
-        compare(mode, expected, *operators[problem_.partition_of[mode]], workers);
+        if (problem_.expected->of_mode[mode] == number) compare(mode, expected, sweep, rates);
       }
     }
-    double greatest = 0;
-    for (const auto& worker : workers) greatest = std::max(greatest, worker.rate);
+    const double greatest = *std::ranges::max_element(rates);
     if (engine_.share() == nullptr) return greatest;
     // The bits of numbers that are not negative have the same order as the numbers.
     return std::bit_cast<double>(engine_.share()->ranks().greatest(std::bit_cast<std::int64_t>(greatest)));
   }
 
-  Risk result(double rate) {
-    counts_.rows_visited = sum_of_all(engine_.share(), counts_.rows_visited);
-    counts_.rows_skipped = sum_of_all(engine_.share(), counts_.rows_skipped);
-    return {std::move(state_.risks), rate, counts_};
-  }
+  [[nodiscard]] std::vector<RiskRows> take_risks() { return std::move(state_.risks); }
 
  private:
-  template <class Level>
-  struct Worker {
-    Worker(const RowEngine& engine, const LevelRows<Level>& levels)
-        : posts(engine, levels),
-          next(posts.lanes(), 0),
-          lanes(posts.lanes(), 0),
-          risks(posts.lanes(), kCertain<Level>) {}
-    PostReader<Level> posts;
-    std::vector<Level> next;
-    std::vector<Level> lanes;
-    std::vector<Level> risks;
-    double rate = 0;
-  };
-
-  [[nodiscard]] std::size_t modes() const { return problem_.partition_of.size(); }
-
-  /// The rows whose posts can meet one of those that have changed.
-  [[nodiscard]] RowNumbers pending_rows(const std::vector<std::uint8_t>& changed) const {
-    std::vector<std::uint8_t> is_pending(alive_.size(), 0);
-    team_.for_each(std::ssize(alive_), 256, [&](ThreadTeam::Range range, int) {
-      RowBox box;
-      std::vector<std::int64_t> counter;
-      for (std::int64_t i = range.begin; i < range.end; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        problem_.hull->box(RowPlace(engine_.grid(), alive_[k]), box);
-        const auto has_changed = [&](std::int64_t row) {
-          return changed[static_cast<std::size_t>(row)] != 0;
-        };
-        is_pending[k] = any_row(engine_.grid(), 0, box.ranges, counter, has_changed) ? 1 : 0;
-      }
-    });
-    RowNumbers rows;
-    for (std::size_t k = 0; k < alive_.size(); ++k) {
-      if (is_pending[k] != 0) rows.push_back(alive_[k]);
-    }
-    return rows;
-  }
+  [[nodiscard]] std::size_t modes() const { return problem_.network.modes.size(); }
 
   /// Finds V_{n+1} of one mode, and the rows that it changes.
-  void step(std::size_t mode, const ExpectedLevels<std::uint32_t>& expected, ModeRisk<std::uint32_t>& choices,
-            std::deque<Worker<std::uint32_t>>& workers, std::vector<std::uint8_t>& changed) {
+  void step(std::size_t mode, const ExpectedLevels<std::uint32_t>& expected, ModeSweep<std::uint32_t>& sweep,
+            std::vector<std::uint8_t>& changed) {
     const std::size_t number = problem_.expected->of_mode[mode];
+    const std::vector<std::uint8_t>& met = expected.changed(number);
     // The first step visits all rows: those whose posts meet no row may still have forbidden joint inputs.
-    const RowNumbers rows = state_.steps == 0 ? alive_ : pending_rows(expected.changed(number));
+    const PendingRows rows = pending_rows(
+        problem_.network, going_on_, state_.steps == 0,
+        [&](std::int64_t row) { return met[static_cast<std::size_t>(row)] != 0; }, team_);
     const auto n = static_cast<std::size_t>(engine_.row_length());
-    for_each_in_units(
-        engine_, rows, team_,
-        [&](int w) { workers[static_cast<std::size_t>(w)].posts.enter(expected.of(number)); },
-        [&](std::int64_t row, int w) {
-          Worker<std::uint32_t>& worker = workers[static_cast<std::size_t>(w)];
-          find(row, choices, worker, w);
-          const std::uint32_t* const own = state_.risks[mode].row(row);
-          if (std::equal(own, own + n, worker.risks.begin())) return;
-          state_.risks[mode].put(row, worker.risks.data());
-          changed[static_cast<std::size_t>(row)] = 1;
-        });
-    const auto visited = std::ssize(rows), alive = std::ssize(alive_);
-    ++counts_.sweeps;
-    counts_.rows_visited += visited;
-    counts_.rows_skipped += alive - visited;
-    step_ = {.sweep = counts_.sweeps, .visited = visited, .rows = alive};
-    if (mode + 1 < modes() && watch_.step) watch_.step(step_, state_.steps);
-  }
-
-  /// worker.risks = one more step of a row: kCertain outside K, 0 risk where the task is over.
-  template <class Level>
-  void find(std::int64_t row, ModeRisk<Level>& choices, Worker<Level>& worker, int w) const {
-    const auto n = static_cast<std::size_t>(engine_.row_length());
-    choices.find(RowPlace(engine_.grid(), row), worker.posts, worker.next.data(), w);
-    const LevelKernels<Level>& kernels = worker.posts.kernels();
-    kernels.spread(going_on_.row(row).data(), worker.lanes.data(), n);
-    std::fill(worker.risks.begin(), worker.risks.end(), kCertain<Level>);
-    kernels.raise_where(worker.next.data(), worker.lanes.data(), worker.risks.data(), n);
-    if (!ends_early_) return;
-    for_each_bit(problem_.invariant->row(row), [&](std::int64_t x) {
-      if (worker.lanes[static_cast<std::size_t>(x)] == 0)
-        worker.risks[static_cast<std::size_t>(x)] = LevelRows<Level>::kTop;
+    const std::vector<std::uint32_t> certain(n + kLevelBlock, kCertain<std::uint32_t>);
+    sweep.run(mode, expected.of(number), rows, invariant_, [&](std::int64_t row, std::uint32_t* next, int) {
+      sweep.kernels().raise(certain.data(), next, n);
+      if (std::equal(next, next + n, state_.risks[mode].row(row))) return;
+      state_.risks[mode].put(row, next);
+      changed[static_cast<std::size_t>(row)] = 1;
     });
   }
 
-  /// Raises worker.rate to the most by which one more step of a mode goes beyond V.
+  /// Raises the rate of a worker to the most by which one more step of a mode goes beyond V.
   void compare(std::size_t mode, const ExpectedLevels<std::uint64_t>& expected,
-               ModeRisk<std::uint64_t>& choices, std::deque<Worker<std::uint64_t>>& workers) const {
-    const std::size_t number = problem_.expected->of_mode[mode];
-    for_each_in_units(
-        engine_, alive_, team_,
-        [&](int w) { workers[static_cast<std::size_t>(w)].posts.enter(expected.of(number)); },
-        [&](std::int64_t row, int w) {
-          Worker<std::uint64_t>& worker = workers[static_cast<std::size_t>(w)];
-          find(row, choices, worker, w);
-          const std::uint32_t* const own = state_.risks[mode].row(row);
-          for_each_bit(going_on_.row(row), [&](std::int64_t x) {
-            const double more =
-                outward::add_up(risk_of(worker.risks[static_cast<std::size_t>(x)]), -double{risk_of(own[x])});
-            worker.rate = std::max(worker.rate, more);
-          });
-        });
+               ModeSweep<std::uint64_t>& sweep, std::vector<double>& rates) const {
+    const auto all = [](std::int64_t) { return true; };
+    const PendingRows rows = pending_rows(problem_.network, going_on_, true, all, team_);
+    const auto raise = [&](std::int64_t row, const std::uint64_t* next, int w) {
+      double& rate = rates[static_cast<std::size_t>(w)];
+      const std::uint32_t* const present = state_.risks[mode].row(row);
+      for_each_bit(going_on_.row(row), [&](std::int64_t x) {
+        rate = std::max(rate, outward::add_up(risk_of(next[x]), -double{risk_of(present[x])}));
+      });
+    };
+    sweep.run(mode, expected.of(problem_.expected->of_mode[mode]), rows, invariant_, raise);
   }
 
-  /// Reports a whole step.
-  void tell() {
+  /// Reports a step of a mode; with the state of all modes after a whole one.
+  void tell(const ModeSweep<std::uint32_t>& sweep, std::size_t modes) const {
     if (!watch_.step) return;
-    std::vector<NumberRows> rows;
-    for (const RiskRows& risks : state_.risks) rows.push_back(rows_of(risks));
-    step_.state = rows;
-    watch_.step(step_, state_.steps);
-    step_.state = {};
+    sweep.report([this](const WaveStep& step) { watch_.step(step, state_.steps); },
+                 std::span<const RiskRows>(state_.risks).first(modes));
   }
 
   const RiskProblem& problem_;
   const RowEngine& engine_;
+  const CellSet& invariant_;
   const CellSet& going_on_;  ///< the cells whose posts are looked at
-  bool ends_early_;          ///< going_on_ is not all of K
   const RiskWatch& watch_;
   ThreadTeam& team_;
   ModeChoices choices_;
   RiskState state_;
-  RowNumbers alive_;  ///< own rows that have cells in K
-  WaveStep step_;
-  WaveCounts counts_;
 };
 
 }  // namespace
@@ -240,15 +138,17 @@ std::vector<RiskRows> first_risks(const CellSet& invariant, std::size_t modes, c
 
 Risk find_risk(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team) {
   RiskIteration iteration(problem, watch, team);
-  iteration.run();
-  return iteration.result(iteration.rate());
+  Risk risk = iteration.run();
+  risk.rate = iteration.rate();
+  risk.risks = iteration.take_risks();
+  return risk;
 }
 
 RiskRows drawn_risks(const ExpectedRisk& expected, const std::vector<RiskRows>& risks, const RowShare* share,
                      ThreadTeam& team) {
   const auto n = static_cast<std::size_t>(risks.front().row_length());
   RiskRows drawn(risks.front().rows(), risks.front().row_length(), RowMargins{}, RowEnds{});
-  for_each_own_row(team, share, drawn.rows(), kTaskRows, [&](ThreadTeam::Range range, int) {
+  for_each_own_row(team, share, drawn.rows(), 64, [&](ThreadTeam::Range range, int) {
     std::vector<std::uint32_t> lanes(n + kLevelBlock);
     std::vector<const std::uint32_t*> rows(expected.successors().size());
     for (std::int64_t row = range.begin; row < range.end; ++row) {

@@ -4,27 +4,17 @@
 #include <functional>
 #include <vector>
 
+#include "answers/network/network_problem.hpp"
 #include "answers/risk/expected_risk.hpp"
 #include "base/thread_team.hpp"
-#include "choices/controller.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_rows.hpp"
-#include "engine/row_hull.hpp"
 #include "engine/wave_watch.hpp"
-#include "model/input_class.hpp"
 
 namespace coordreq {
 
-class Projections;
-
 struct RiskProblem {
-  const Controller* controller =
-      nullptr;  ///< C in K, without the cells of a goal that ends the task, where risk is 0
-  const CellSet* invariant = nullptr;  ///< K
-  const RowHull* hull = nullptr;
-  std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each
-  std::vector<const Projections*> rules;            ///< [partition] see ModeChoices
-  std::vector<std::size_t> partition_of;            ///< [mode] index into partitions
+  NetworkProblem network;
   const ExpectedRisks* expected = nullptr;
   std::int64_t horizon = 0;  ///< N
   bool is_safest = false;
@@ -59,7 +49,8 @@ struct RiskWatch {
 
 /// How likely the agents are to leave K within N steps: for x in K V_{n+1}(x,q) = OPT over u of max over y in
 /// f(x,u) of E_q V_n(y,.), see ModeChoices and ExpectedRisk. A post that is blocked, and a cell without u,
-/// count as 1; a post that has left for good through a safe side counts as 0. This is value iteration for
+/// count as 1; a post that has left for good through a safe side, and a cell of a goal that ends the task,
+/// count as 0. This is value iteration for
 /// reachability in n steps; losses are drawn after the worst y is known, for they do not depend on the
 /// motion.
 ///
