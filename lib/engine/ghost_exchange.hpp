@@ -28,7 +28,7 @@ struct ExchangeTimes {
                                        RowShare::Range sent);
 
 /// The ghost exchange of a wave: sends dirty rows to the ranks that hold them as ghosts, and takes in its own
-/// ghost rows that are dirty.
+/// ghost rows that are dirty. Nothing where there is one process.
 ///
 /// In each sweep a rank sends one message to every rank that holds rows of it, after the last batch with such
 /// rows. It takes in the message of the sweep before from every rank of which it holds rows, when it comes to
@@ -37,16 +37,14 @@ struct ExchangeTimes {
 template <class Level>
 class GhostExchange {
  public:
-  /// @pre unchecked: there are several ranks, and all outlive this object.
+  /// @pre unchecked: all outlive this object.
   /// @param orders of sweeps forwards and backwards, of the units from first_unit on
   GhostExchange(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, DirtyRows& dirty,
                 std::int64_t unit_rows, const std::array<SweepOrder, 2>& orders, std::int64_t first_unit)
-      : levels_(levels),
-        ranks_(levels.share()->ranks()),
-        messages_(levels),
-        dirty_(dirty),
-        peers_(levels.share()->peers().size()) {
+      : levels_(levels), messages_(levels), dirty_(dirty) {
+    if (levels.share() == nullptr) return;
     const std::vector<RowShare::Peer>& all = levels.share()->peers();
+    peers_.resize(all.size());
     const std::vector<RowShare::Range> meeting = units_that_meet_peers(engine, hull, unit_rows);
     for (std::size_t p = 0; p < all.size(); ++p) {
       peers_[p].share = &all[p];
@@ -90,8 +88,8 @@ class GhostExchange {
   void listen() {
     for (auto peer = to_take_.rbegin(); peer != to_take_.rend(); ++peer) {
       if ((*peer)->arrived) continue;
-      if (!ranks_.has_message((*peer)->share->rank)) return;
-      (*peer)->arrived = ranks_.receive((*peer)->share->rank);
+      if (!ranks().has_message((*peer)->share->rank)) return;
+      (*peer)->arrived = ranks().receive((*peer)->share->rank);
     }
   }
   /// Takes in and sends the rest of the messages of the sweep.
@@ -104,7 +102,7 @@ class GhostExchange {
   /// After the last sweep: receives its messages, which hold no rows.
   void end() {
     for (Peer& peer : peers_) {
-      if (!peer.share->received.empty()) static_cast<void>(ranks_.receive(peer.share->rank));
+      if (!peer.share->received.empty()) static_cast<void>(ranks().receive(peer.share->rank));
     }
   }
 
@@ -116,12 +114,13 @@ class GhostExchange {
     std::optional<Bytes> arrived;        ///< a message that was received and not taken in
   };
 
+  [[nodiscard]] Ranks& ranks() const { return levels_.share()->ranks(); }
   [[nodiscard]] const ExchangeTimes& times(const Peer& peer) const { return peer.times[backwards_ ? 1 : 0]; }
 
   void send() {
     Peer& peer = *to_send_.back();
     to_send_.pop_back();
-    ranks_.send(peer.share->rank, messages_.message(*peer.share, [&](std::int64_t row) {
+    ranks().send(peer.share->rank, messages_.message(*peer.share, [&](std::int64_t row) {
       return dirty_.has_changed_after(peer.told, row);
     }));
     peer.told = dirty_.batch();
@@ -132,7 +131,7 @@ class GhostExchange {
     Peer& peer = *to_take_.back();
     to_take_.pop_back();
     const Bytes message =
-        peer.arrived ? *std::exchange(peer.arrived, std::nullopt) : ranks_.receive(peer.share->rank);
+        peer.arrived ? *std::exchange(peer.arrived, std::nullopt) : ranks().receive(peer.share->rank);
     dirty_.begin_batch();
     messages_.take(message, [&](std::int64_t row, const Level* cells) {
       levels_.put(row, cells);
@@ -141,7 +140,6 @@ class GhostExchange {
   }
 
   LevelRows<Level>& levels_;
-  Ranks& ranks_;
   LevelMessages<Level> messages_;
   DirtyRows& dirty_;
   bool backwards_ = false;

@@ -14,13 +14,11 @@ namespace coordreq {
 template <class Level>
 class LevelMessages {
  public:
-  /// @pre there are several processes. @pre unchecked: `levels` outlive this object
+  /// @pre unchecked: `levels` outlive this object
   explicit LevelMessages(const LevelRows<Level>& levels)
       : levels_(levels),
         lanes_(static_cast<std::size_t>(levels.row_length())),
-        cells_(lanes_ + kLevelBlock / sizeof(Level)) {
-    REQUIRES(levels.share() != nullptr);
-  }
+        cells_(lanes_ + kLevelBlock / sizeof(Level)) {}
 
   /// The rows that a peer holds and for which is_sent(row) is true.
   template <class IsSent>
@@ -32,9 +30,10 @@ class LevelMessages {
   void take(const Bytes& message, const Put& put) {
     take_rows(message, lanes_ * sizeof(Level), putting(put));
   }
-  /// exchange_row_bytes() of these messages.
+  /// exchange_row_bytes() of these messages. @pre there are several processes
   template <class IsSent, class Put>
   void exchange(const IsSent& is_sent, const Put& put) {
+    REQUIRES(levels_.share() != nullptr);
     exchange_row_bytes(
         *levels_.share(), lanes_ * sizeof(Level), is_sent, [this](std::int64_t row) { return bytes_of(row); },
         putting(put));

@@ -21,21 +21,13 @@ class WaveRunner {
       : levels_(levels),
         share_(engine.share()),
         watch_(watch),
-        batch_(levels, engine, hull, limit, op, team, equal) {
-    team.for_each(std::ssize(orders_), 1, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t k = range.begin; k < range.end; ++k)
-        orders_[static_cast<std::size_t>(k)] = order(hull, equal.symmetry, k == 1);
-    });
-    if (share_ == nullptr) return;
-    ghosts_.emplace(levels, engine, hull, batch_.dirty(), batch_.units().rows(), orders_,
-                    batch_.first_unit());
-  }
+        batch_(levels, engine, hull, limit, op, team, equal),
+        orders_(make_orders(hull, equal.symmetry, team)),
+        ghosts_(levels, engine, hull, batch_.dirty(), batch_.units().rows(), orders_, batch_.first_unit()) {}
 
   WaveCounts run() {
-    std::int64_t visited = 0;
-    do {
-      visited = sweep(++counts_.sweeps);
-    } while (goes_on(visited));
+    while (goes_on(sweep(++counts_.sweeps))) {
+    }
     for (std::int64_t* rows : {&counts_.rows_visited, &counts_.rows_copied, &counts_.rows_skipped})
       *rows = sum_of_all(share_, *rows);
     return counts_;
@@ -44,15 +36,18 @@ class WaveRunner {
  private:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
-  [[nodiscard]] SweepOrder order(const RowHull& hull, const RowSymmetry* symmetry, bool backwards) const {
-    return {batch_.units(),
-            hull,
-            batch_.alive(),
-            batch_.first_unit(),
-            batch_.unit_count(),
-            backwards,
-            symmetry,
-            std::max<std::int64_t>(1, kMostLevelsOfBatch / levels_.stride())};
+  using Orders = std::array<SweepOrder, 2>;
+
+  [[nodiscard]] Orders make_orders(const RowHull& hull, const RowSymmetry* symmetry, ThreadTeam& team) const {
+    const std::int64_t most_rows = std::max<std::int64_t>(1, kMostLevelsOfBatch / levels_.stride());
+    Orders orders;
+    team.for_each(std::ssize(orders), 1, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t k = range.begin; k < range.end; ++k)
+        orders[static_cast<std::size_t>(k)] =
+            SweepOrder(batch_.units(), hull, batch_.alive(), batch_.first_unit(), batch_.unit_count(), k == 1,
+                       symmetry, most_rows);
+    });
+    return orders;
   }
 
   /// Goes over the grid once. @returns rows visited
@@ -60,24 +55,25 @@ class WaveRunner {
     const bool backwards = number % 2 == 1;
     const SweepOrder& order = orders_[backwards ? 1 : 0];
     const std::int64_t alive = batch_.alive().count();
+    const auto hear_of = [this](std::int64_t row) { batch_.hear_of(row); };
     WaveStep step{.sweep = number, .rows_left = alive, .rows = alive, .layer = layer_};
     batch_.begin_sweep();
-    if (ghosts_) ghosts_->begin_sweep(number, backwards);
+    ghosts_.begin_sweep(number, backwards);
     std::int64_t looked_at = 0, turn = 0;
     for (std::size_t b = 0; b < order.size(); ++b) {
       step.rows_left -= order[b].rows;
-      if (ghosts_) ghosts_->before(b, [this](std::int64_t row) { batch_.hear_of(row); });
+      ghosts_.before(b, hear_of);
       if (const std::optional<BatchCounts> done = batch_.run(order[b].units, turn)) {
         count(*done);
         step.visited += done->visited;
         looked_at += done->visited + done->copied;
-        tell(step, !ghosts_);
-        if (ghosts_) ghosts_->listen();
+        tell(step, share_ == nullptr);
+        ghosts_.listen();
       }
-      if (ghosts_) ghosts_->after(b);
+      ghosts_.after(b);
       turn += std::ssize(order[b].units) * batch_.units().rows();
     }
-    if (ghosts_) ghosts_->end_sweep([this](std::int64_t row) { batch_.hear_of(row); });
+    ghosts_.end_sweep(hear_of);
     counts_.rows_skipped += alive - looked_at;
     note_final_layers();
     step.layer = layer_;
@@ -94,16 +90,16 @@ class WaveRunner {
   /// Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets up to it did not
   /// change while each cell was found to stay in them. Not so with several processes: changes may be coming.
   void note_final_layers() {
-    if (batch_.lowest() == kTop || ghosts_) return;
+    if (batch_.lowest() == kTop || share_ != nullptr) return;
     layer_ = std::max<std::int64_t>(layer_, std::int64_t{batch_.lowest()} - 1);
   }
 
   /// @returns whether levels may still change. Several processes know a sweep late, so that none waits.
   bool goes_on(std::int64_t visited) {
-    if (!ghosts_) return visited > 0;
+    if (share_ == nullptr) return visited > 0;
     Ranks& ranks = share_->ranks();
     if (counts_.sweeps > 1 && ranks.finish_sum() == 0) {
-      ghosts_->end();
+      ghosts_.end();
       return false;
     }
     ranks.begin_sum(std::exchange(changed_rows_, 0));
@@ -122,8 +118,8 @@ class WaveRunner {
   const RowShare* share_;
   const WaveWatch& watch_;
   WaveBatch<Level> batch_;
-  std::array<SweepOrder, 2> orders_;            ///< forwards and backwards
-  std::optional<GhostExchange<Level>> ghosts_;  ///< of several processes
+  Orders orders_;  ///< forwards and backwards
+  GhostExchange<Level> ghosts_;
   WaveCounts counts_;
   std::int64_t layer_ = -1;        ///< levels up to it are final
   std::int64_t changed_rows_ = 0;  ///< since the last sum
