@@ -10,6 +10,7 @@
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
 #include "base/requires.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -18,10 +19,9 @@ namespace {
 /// Whether posts can be had at little cost.
 bool has_few_posts(const Model& model) {
   constexpr double kMostCells = 1e6, kMostEntries = 2e4;
-  double cells = 1, entries = 0;
+  double cells = 1;
   for (const StateSpec& state : model.spec().states) cells *= static_cast<double>(state.grid.count);
-  for (const TableShape& shape : model.shapes()) entries += shape.entries;
-  return cells <= kMostCells && entries <= kMostEntries && !model.spec().controller.file;
+  return cells <= kMostCells && entries_of(model.shapes()) <= kMostEntries && !model.spec().controller.file;
 }
 
 void add(Warnings more, Warnings& all) {

@@ -17,6 +17,7 @@
 #include "base/grouped.hpp"
 #include "base/requires.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -162,30 +163,22 @@ Fault fault_of(const Answers& answers, std::size_t partition) {
 struct OutOfWork {};
 
 /// The work that trials may take: counted, so that no clock decides which are tried.
-class WorkLimit {
- public:
-  /// @param spent takes what has been spent; @pre unchecked: it outlives this object
-  explicit WorkLimit(double& spent) : spent_(spent) {}
+struct WorkLimit {
+  double spent = 0;
 
   /// @throws OutOfWork
   void spend(double work) {
-    spent_ += work;
-    if (spent_ > kMostWork) throw OutOfWork();
+    spent += work;
+    if (spent > kMostWork) throw OutOfWork();
   }
-
- private:
-  double& spent_;
 };
 
 double work_of_tables(const Model& model) {
-  double entries = 0;
-  for (const TableShape& shape : model.shapes()) entries += shape.entries;
-  return entries * work_of_entry(model.spec());
+  return entries_of(model.shapes()) * work_of_entry(model.spec());
 }
 
 double work_of_visit(const Model& model) {
-  double inputs = 1;
-  for (const InputSpec& input : model.spec().inputs) inputs *= static_cast<double>(input.values.size());
+  const auto inputs = static_cast<double>(model.inputs().count());
   const bool is_summed = std::any_of(model.shapes().begin(), model.shapes().end(),
                                      [](const TableShape& shape) { return shape.sum; });
   return kWorkOfVisit + inputs * (is_summed ? kWorkOfSummedInput : kWorkOfInput);
@@ -232,23 +225,21 @@ Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
 struct Trials {
   std::vector<std::string> helped;
   std::size_t tried = 0;
-  double work = 0;  ///< counted as for WorkLimit
+  WorkLimit limit;
 };
 
 Trials try_all(const ProblemSpec& spec, Fault fault, ThreadTeam& team) {
   Trials trials;
-  WorkLimit limit(trials.work);
   try {
     for (const Relaxation& relaxation : relaxations(spec)) {
       ProblemSpec relaxed = spec;
       relaxation.apply(relaxed);
-      const std::optional<Fault> found = if_possible([&] { return fault_of(relaxed, limit, team); });
+      const std::optional<Fault> found = if_possible([&] { return fault_of(relaxed, trials.limit, team); });
       if (!found) continue;
       ++trials.tried;
       if (*found < fault) trials.helped.push_back(relaxation.text);
     }
-  } catch (const OutOfWork&) {
-    return trials;
+  } catch (const OutOfWork&) {  // what was tried counts
   }
   return trials;
 }
@@ -275,7 +266,7 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
   // Parts of a cell may cost a thousand times what its entry is reckoned to; without them posts are wider.
   if (spec.dynamics.time == Time::continuous) copy->spec.abstraction.effort = 0;
   const Trials trials = try_all(copy->spec, fault, team);
-  work["helpers"]["advice"] = {{"trials", trials.tried}, {"work", trials.work}};
+  work["helpers"]["advice"] = {{"trials", trials.tried}, {"work", trials.limit.spent}};
   if (trials.tried == 0) return "";
   const std::string count =
       fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));

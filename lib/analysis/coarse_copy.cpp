@@ -18,19 +18,6 @@ std::int64_t count_cells(const ProblemSpec& spec) {
   return cells;
 }
 
-double count_entries(const ProblemSpec& spec) {
-  double entries = 0;
-  for (const TableShape& shape : table_shapes(spec)) entries += shape.entries;
-  return entries;
-}
-
-/// Few points are what a state needs.
-void coarsen(ProblemSpec& spec, std::int64_t factor) {
-  constexpr std::int64_t kFewPoints = 4;
-  for (StateSpec& state : spec.states)
-    regrid(state, rational(std::clamp<std::int64_t>(state.grid.count / kFewPoints, 1, factor)));
-}
-
 void leave_only(std::size_t partition, ProblemSpec& spec) {
   CoordinationSpec& coordination = spec.coordination;
   coordination = CoordinationSpec{.partitions = {coordination.partitions[partition]}, .max_delay = 1};
@@ -61,6 +48,12 @@ void regrid(StateSpec& state, const Rational& factor) {
   if (count >= 2) grid = {first, step, count};
 }
 
+void coarsen(ProblemSpec& spec, std::int64_t factor) {
+  constexpr std::int64_t kFewPoints = 4;
+  for (StateSpec& state : spec.states)
+    regrid(state, rational(std::clamp<std::int64_t>(state.grid.count / kFewPoints, 1, factor)));
+}
+
 std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t partition, std::int64_t most_cells,
                                       double most_entries) {
   // Which conditions are undecided, and so the values of memories, follows from the grid.
@@ -70,7 +63,7 @@ std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t parti
     leave_only(partition, copy.spec);
     coarsen(copy.spec, factor);
     copy.cells = count_cells(copy.spec);
-    if (copy.cells <= most_cells && count_entries(copy.spec) <= most_entries) return copy;
+    if (copy.cells <= most_cells && entries_of(table_shapes(copy.spec)) <= most_entries) return copy;
   }
   return std::nullopt;
 }

@@ -14,6 +14,9 @@ namespace coordreq {
 /// that. Nothing is done where not even two points would be left.
 void regrid(StateSpec& state, const Rational& factor);
 
+/// regrid() of all states, but for few points, which are what a state needs.
+void coarsen(ProblemSpec& spec, std::int64_t factor);
+
 /// The problem on a coarser grid, without what only asks more of the answer: K and the layers of one
 /// partition up to Z_1 are left.
 struct CoarseCopy {

@@ -12,6 +12,7 @@
 #include "answers/plan.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/enclosure_sample.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -44,12 +45,6 @@ double cells_of(const ProblemSpec& spec) {
   return std::accumulate(
       spec.states.begin(), spec.states.end(), 1.0,
       [](double cells, const StateSpec& state) { return cells * static_cast<double>(state.grid.count); });
-}
-
-double entries_of(const Model& model) {
-  const auto& shapes = model.shapes();
-  return std::accumulate(shapes.begin(), shapes.end(), 0.0,
-                         [](double sum, const TableShape& shape) { return sum + shape.entries; });
 }
 
 /// Processor time of all threads of this process, in seconds.
@@ -93,7 +88,7 @@ Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
   };
   const Model model = make_model(spec);
   Answers answers(model);
-  Measured result{.cells = cells_of(spec), .entries = entries_of(model)};
+  Measured result{.cells = cells_of(spec), .entries = entries_of(model.shapes())};
   try {
     run_stages(analysis_stages(spec), answers, {.team = team}, {.enter = enter});
     result.tables = tables / team.size();
@@ -109,7 +104,7 @@ Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
 std::optional<double> measured_enclosures(const Model& model) {
   const std::vector<EnclosedGroup> groups = enclosed_groups(model.spec(), model.shapes());
   if (groups.empty()) return std::nullopt;
-  double seconds = entries_of(model) * kOfExactEntry;
+  double seconds = entries_of(model.shapes()) * kOfExactEntry;
   for (const EnclosedGroup& group : groups) {
     EnclosureSample sample(model.spec(), group);
     const double begin = processor_seconds();
@@ -125,15 +120,12 @@ std::optional<double> measured_enclosures(const Model& model) {
 /// The problem with steps `factor` times as long; 1: on its own grid. Boxes are not divided: what that takes
 /// is seen by a sample, and copies show the rest.
 ProblemSpec coarser(const ProblemSpec& spec, std::int64_t factor) {
-  constexpr std::int64_t kFewPoints = 4;
   ProblemSpec copy = spec;
   copy.abstraction.effort = 0;
   if (factor == 1) return copy;
   copy.controller.file.reset();  // that is of one grid
   copy.requirements.clear();     // their regions may be none on another
-  for (StateSpec& state : copy.states)
-    regrid(state,
-           Rational(static_cast<long>(std::clamp<std::int64_t>(state.grid.count / kFewPoints, 1, factor))));
+  coarsen(copy, factor);
   return copy;
 }
 
@@ -157,7 +149,7 @@ double extrapolated(const Model& model, const std::vector<Measured>& copies,
     power = std::log(std::max(last.rest, 1e-6) / std::max(before.rest, 1e-6)) /
             std::log(last.cells / before.cells);
   }
-  return enclosures.value_or(last.tables * entries_of(model) / last.entries) +
+  return enclosures.value_or(last.tables * entries_of(model.shapes()) / last.entries) +
          last.rest * std::pow(cells / last.cells, std::clamp(power, kLeastPower, kMostPower));
 }
 
@@ -200,7 +192,7 @@ bool may_take_hours(const Model& model) {
   const ProblemSpec& spec = model.spec();
   const double horizon = spec.risk ? static_cast<double>(spec.risk->horizon) : 0;
   const auto partitions = static_cast<double>(spec.coordination.partitions.size());
-  return cells_of(spec) * (partitions + horizon) > kManyVisits || entries_of(model) > kManyEntries;
+  return cells_of(spec) * (partitions + horizon) > kManyVisits || entries_of(model.shapes()) > kManyEntries;
 }
 
 }  // namespace coordreq

@@ -1,22 +1,11 @@
 #include <algorithm>
 
 #include "answers/memory_need.hpp"
-#include "base/index.hpp"
+#include "reach/table_shapes.hpp"
 #include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-namespace {
-
-/// Entries of a table written out: one for every choice of the states and inputs that the state depends on.
-double entries_in_full(const Model& model, const TableShape& shape) {
-  double entries = 1;
-  for (const std::int32_t j : shape.states) entries *= static_cast<double>(model.grid()[at(j)].count);
-  for (const std::int32_t j : shape.inputs) entries *= static_cast<double>(model.inputs()[at(j)].count());
-  return entries;
-}
-
-}  // namespace
 
 MemoryNeed context_memory(const EngineSizes& sizes, int threads) {
   const Model& model = sizes.model();
@@ -34,7 +23,7 @@ MemoryNeed context_memory(const EngineSizes& sizes, int threads) {
     // Tables of tubes are as large as those of posts, and are cut into rows twice where states saturate.
     if (spec.abstraction.between_samples) need.kept += sizes.table(t) + 2 * sizes.slices(t);
     if (!spec.output.abstraction) continue;
-    const double entries = entries_in_full(model, model.arranged_shapes()[t]);
+    const double entries = choices_of(spec, model.shapes()[t].states, model.shapes()[t].inputs);
     need.array = std::max(need.array, entries * sizeof(std::int32_t));
     need.written = std::max(need.written, entries * sizeof(IndexRange));
   }

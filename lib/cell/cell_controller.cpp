@@ -24,19 +24,6 @@ CellPolicy::Numbers numbers_of(const std::vector<bool>& members) {
   return numbers;
 }
 
-/// Entries of tables, and of the largest, written out in full.
-std::pair<double, double> entries_of(const ResultsReader& results, const std::vector<TableShape>& shapes) {
-  double all = 0, most = 0;
-  for (const TableShape& shape : shapes) {
-    double own = 1;
-    for (const std::int32_t j : shape.states) own *= static_cast<double>(results.grid()[at(j)].count);
-    for (const std::int32_t j : shape.inputs) own *= static_cast<double>(results.inputs()[at(j)].count());
-    all += own;
-    most = std::max(most, own);
-  }
-  return {all, most};
-}
-
 /// Tubes are not stored.
 bool is_stored(const ResultsReader& results) {
   return results.has_abstraction() && !results.spec().abstraction.between_samples;
@@ -50,13 +37,14 @@ std::optional<Abstraction> stored_abstraction(const ResultsReader& results) {
 }  // namespace
 
 double abstraction_bytes(const ResultsReader& results) {
-  const std::vector<TableShape> shapes = table_shapes(results.spec());
-  if (is_stored(results)) {
-    const auto [all, most] = entries_of(results, shapes);
-    return (all + most) * sizeof(IndexRange);  // and both ends of one while it is read
+  double bytes = 0, entries = 0, most = 0;
+  for (const TableShape& shape : table_shapes(results.spec())) {
+    bytes += shape.bytes;
+    const double own = choices_of(results.spec(), shape.states, shape.inputs);
+    entries += own;
+    most = std::max(most, own);
   }
-  double bytes = 0;
-  for (const TableShape& shape : shapes) bytes += shape.bytes;
+  if (is_stored(results)) return (entries + most) * sizeof(IndexRange);  // and both ends of one while read
   return results.spec().abstraction.between_samples ? 2 * bytes : bytes;
 }
 

@@ -68,24 +68,31 @@ void measure(const SystemSpec& spec, const AffineDynamics& dynamics, std::size_t
   const AffinePart part = jumps ? AffinePart() : find_affine_part(spec, shape, state);
   if (!jumps) shape.terms = states_of_sum(spec, dynamics, part, state);
   shape.sum = !shape.terms.empty();
-  const auto count = [&](std::int32_t j) { return static_cast<double>(spec.states[at(j)].grid.count); };
-  const auto values = [&](std::int32_t j) { return static_cast<double>(spec.inputs[at(j)].values.size()); };
-  for (const std::int32_t j : shape.states) {
-    const bool left_out = (shape.shift && at(j) == state) || contains(shape.terms, j);
-    if (!left_out) shape.entries *= count(j);
-  }
-  for (const std::int32_t j : shape.inputs) shape.entries *= values(j);
-  for (const std::int32_t term : shape.terms) {
-    double size = count(term);
-    for (const std::int32_t j : part.parameters) size *= count(j);
-    for (const std::int32_t j : part.inputs) size *= values(j);
-    shape.entries += size;
-  }
+  std::vector<std::int32_t> states = shape.states;
+  std::erase_if(states,
+                [&](std::int32_t j) { return (shape.shift && at(j) == state) || contains(shape.terms, j); });
+  shape.entries = choices_of(spec, states, shape.inputs);
+  for (const std::int32_t term : shape.terms)
+    shape.entries += choices_of(spec, {term}, {}) * choices_of(spec, part.parameters, part.inputs);
   shape.bytes =
       shape.entries * static_cast<double>(shape.sum ? 2 * sizeof(std::int64_t) : sizeof(IndexRange));
 }
 
 }  // namespace
+
+double entries_of(const std::vector<TableShape>& shapes) {
+  double entries = 0;
+  for (const TableShape& shape : shapes) entries += shape.entries;
+  return entries;
+}
+
+double choices_of(const SystemSpec& spec, const std::vector<std::int32_t>& states,
+                  const std::vector<std::int32_t>& inputs) {
+  double choices = 1;
+  for (const std::int32_t j : states) choices *= static_cast<double>(spec.states[at(j)].grid.count);
+  for (const std::int32_t j : inputs) choices *= static_cast<double>(spec.inputs[at(j)].values.size());
+  return choices;
+}
 
 std::vector<TableShape> table_shapes(const SystemSpec& spec) {
   const AffineDynamics dynamics(spec);

@@ -9,6 +9,7 @@
 
 #include "base/index.hpp"
 #include "expression/evaluate.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {
@@ -128,10 +129,8 @@ double kinds(const std::map<Row, int>& drawn, double all) {
 
 UsualSlices usual_slices(const SystemSpec& spec, std::size_t state, const TableShape& shape,
                          std::size_t along) {
-  double all = 1;
-  for (const std::int32_t j : shape.states)
-    all *= at(j) == along ? 1 : static_cast<double>(spec.states[at(j)].grid.count);
-  for (const std::int32_t j : shape.inputs) all *= static_cast<double>(spec.inputs[at(j)].values.size());
+  std::vector<std::int32_t> across = shape.states;
+  std::erase(across, static_cast<std::int32_t>(along));
   RowDraw draw(spec, state, shape, along);
   std::map<Row, int> drawn;
   double segments = 0;
@@ -142,7 +141,7 @@ UsualSlices usual_slices(const SystemSpec& spec, std::size_t state, const TableS
   }
   const auto length = static_cast<double>(spec.states[along].grid.count);
   return {.segments = 1 + (segments - 1) * length / static_cast<double>(draw.cells()),
-          .different = kinds(drawn, all)};
+          .different = kinds(drawn, choices_of(spec, across, shape.inputs))};
 }
 
 }  // namespace coordreq

@@ -46,29 +46,17 @@ double bytes_of_claims(const ResultsReader& results) {
   return tables + (bytes + copied) * static_cast<double>(results.grid().cells());
 }
 
-/// Entries of all tables that are written out for every choice of what they depend on.
-double entries_of_posts(const ResultsReader& results, const std::vector<TableShape>& shapes) {
-  double all = 0;
-  for (const TableShape& shape : shapes) {
-    double own = 1;
-    for (const std::int32_t j : shape.states)
-      own *= static_cast<double>(results.grid()[static_cast<std::size_t>(j)].count);
-    for (const std::int32_t j : shape.inputs)
-      own *= static_cast<double>(results.inputs()[static_cast<std::size_t>(j)].count());
-    all += own;
-  }
-  return all;
-}
-
 double bytes_of_posts(const ResultsReader& results) {
   constexpr double kBytesOfOpenEntry = 4096;  // of the parts of its cell that are not proven yet
   const std::vector<TableShape> shapes = table_shapes(results.spec());
-  const double entries = entries_of_posts(results, shapes);
   const bool has_tubes = results.spec().abstraction.between_samples;
   double of_entry = sizeof(IndexRange) + sizeof(ResolvedRange);
   if (results.has_abstraction()) of_entry += sizeof(IndexRange);
-  double bytes = 0;
-  for (const TableShape& shape : shapes) bytes += (has_tubes ? 2 : 1) * shape.bytes;  // of the analysis
+  double bytes = 0, entries = 0;
+  for (const TableShape& shape : shapes) {
+    bytes += (has_tubes ? 2 : 1) * shape.bytes;  // of the analysis
+    entries += choices_of(results.spec(), shape.states, shape.inputs);
+  }
   if (has_tubes) of_entry += 2 * sizeof(IndexRange) + sizeof(ResolvedRange) + sizeof(std::uint8_t);
   bytes += of_entry * entries + std::min(2 * kMostBytesOfOpenParts, kBytesOfOpenEntry * entries);
   const auto inputs = static_cast<double>(results.inputs().count());

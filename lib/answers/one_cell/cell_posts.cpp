@@ -14,12 +14,6 @@
 namespace coordreq {
 namespace {
 
-double entries_of(const std::vector<TableShape>& shapes) {
-  double entries = 0;
-  for (const TableShape& shape : shapes) entries += shape.entries;
-  return entries;
-}
-
 /// The number of entries computed one by one after which the whole is computed. 0 if a table is a sum: sums
 /// have few entries, and entries of other tables would be other ranges.
 double most_entries(const std::vector<TableShape>& shapes) {
