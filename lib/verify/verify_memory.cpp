@@ -11,6 +11,7 @@
 #include "reach/table_shapes.hpp"
 #include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
 #include "verify/outward_posts.hpp"
 
 namespace coordreq {
@@ -63,12 +64,14 @@ double bytes_of_posts(const ResultsReader& results) {
   return bytes + 2 * inputs * sizeof(std::int32_t) * static_cast<double>(shapes.size());
 }
 
-/// Memory of the actions of all classes of all partitions in each joint input.
+/// Memory of the actions of all classes of all partitions in each joint input, for every answer about steps.
 double bytes_of_classes(const ResultsReader& results) {
   constexpr double kBytesOfClass = 400;
+  const ProblemSpec& spec = results.spec();
+  const double answers = 1 + (spec.goal ? 1 : 0) + (spec.silence ? 1 : 0) + (has_limited_sight(spec) ? 1 : 0);
   double classes = 0;
-  for (const PartitionSpec& partition : results.spec().coordination.partitions)
-    classes += static_cast<double>(partition.classes.size());
+  for (const PartitionSpec& partition : spec.coordination.partitions)
+    classes += answers * static_cast<double>(partition.classes.size());
   const double one = static_cast<double>(results.inputs().count()) * sizeof(std::int32_t) + kBytesOfClass;
   return classes * one;
 }
@@ -104,9 +107,9 @@ double bytes_of_thread(const ResultsReader& results) {
 
 VerifyMemory verify_memory(const ResultsReader& results) {
   return {.claims = bytes_of_claims(results),
-          .work = {.once = bytes_of_posts(results) + bytes_of_classes(results) +
+          .work = {.once = bytes_of_posts(results) +
                            kept_of_cell(results) * static_cast<double>(results.grid().cells()),
-                   .of_thread = bytes_of_thread(results)}};
+                   .of_thread = bytes_of_thread(results) + bytes_of_classes(results)}};
 }
 
 }  // namespace coordreq

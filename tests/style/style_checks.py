@@ -77,6 +77,7 @@ def includes_point_left(root):
 # What a check may know of answers and of the engine: what is claimed, not how it is found.
 CLAIMED = (
     "engine/packed_pairs.hpp",
+    "answers/countdown/kinds.hpp",
     "answers/field_source.hpp",
     "answers/step_codes.hpp",
     "answers/layers/stored_partition.hpp",

@@ -9,12 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "answers/checking/answer_check.hpp"
 #include "answers/checking/cell_place.hpp"
-#include "answers/checking/check_context.hpp"
-#include "answers/checking/claimed_values.hpp"
-#include "answers/layers/check_sizes.hpp"
-#include "answers/step_codes.hpp"
+#include "answers/checking/steps_check.hpp"
 #include "base/index.hpp"
 #include "model/input_class.hpp"
 #include "spec/partition_names.hpp"
@@ -74,33 +70,38 @@ struct BlindClass {
 
 /// Data of one partition that all threads share.
 struct BlindPartitionCheck {
+  static constexpr const CountdownKind& kKind = kBlindKind;
+
   BlindPartitionCheck(const CheckContext& context, std::size_t p)
-      : claims(*context.spec, *context.claims, p, blind_layers_meant()),
+      : claims(*context.spec, *context.claims, p, kKind),
         delays(context.claims->values("/blind_delay", p)),
         of_sight(context.claims->values("/delay", p)),
         delay("blind delay " + claims.partition.name),
         countdown("blind countdown " + claims.partition.name),
         first("first blind layer " + claims.partition.name),
         tables("silent tables " + claims.partition.name) {
-    const std::optional<std::int64_t>& limit = context.spec->coordination.max_delay;
-    if (claims.fixed_point_index < 0) most = limit;
-    if (claims.fixed_point_index < 0 || claims.fixed_point_index == limit) longest = limit;
+    longest = claims.most;
+    if (claims.fixed_point_index == context.spec->coordination.max_delay)
+      longest = static_cast<std::int32_t>(claims.fixed_point_index);
     if (claims.partition.classes.size() == 1) return;
     for (std::size_t c = 0; c < claims.partition.classes.size(); ++c)
       classes.emplace_back(context, claims.partition, c);
   }
 
+  [[nodiscard]] std::vector<Finding> findings() const {
+    if (classes.empty()) return {delay.finding(), countdown.finding()};
+    return {delay.finding(), countdown.finding(), first.finding(), tables.finding()};
+  }
   /// The greatest k with x in B_k, as claimed; kUnbounded if there is no greatest.
   [[nodiscard]] std::int32_t depth(std::int64_t cell) const {
     const std::int32_t steps = claims.delay[at(cell)];
-    return most && *most > 0 && steps == *most ? kUnbounded : steps;
+    return steps > 0 && steps == claims.most ? kUnbounded : steps;
   }
 
   PartitionClaims claims;  ///< with countdowns for delays
   const std::vector<std::int32_t>& delays;
   const std::vector<std::int32_t>& of_sight;
-  std::optional<std::int64_t> most;     ///< max_delay, if it has stopped the iteration
-  std::optional<std::int64_t> longest;  ///< or if the iteration ended with it: no delay is longer
+  std::optional<std::int32_t> longest;  ///< max_delay, if the iteration ended with it: no delay is longer
   Tally delay, countdown, first, tables;
   std::deque<BlindClass> classes;  ///< empty if the partition has one class
   std::atomic<std::int64_t> looked_at{0};
@@ -109,61 +110,43 @@ struct BlindPartitionCheck {
 class BlindChecker : public CellChecker {
  public:
   BlindChecker(const CheckContext& context, std::deque<BlindPartitionCheck>& partitions)
-      : context_(context), partitions_(partitions) {}
+      : context_(context), partitions_(partitions) {
+    for (const BlindPartitionCheck& one : partitions)
+      choices_.emplace_back(context, one.claims.partition.classes);
+  }
 
   void check(CheckedCell& cell) override {
-    for (BlindPartitionCheck& partition : partitions_) {
-      keep_actions(cell, partition);
-      const std::int32_t outside = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
-      const std::int32_t expected = cell.is_invariant() ? delay_by_definition(cell, partition) : outside;
-      compare(partition.delay, cell, partition.delays[cell.at()], expected);
+    for (std::size_t p = 0; p < partitions_.size(); ++p) {
+      BlindPartitionCheck& partition = partitions_[p];
+      choices_[p].go_to(cell.number(), cell.admitted());
+      keep_actions(cell, choices_[p], partition);
+      std::int32_t expected = steps_outside(cell);
+      if (cell.is_invariant()) {
+        expected = partition.classes.empty()
+                       ? partition.of_sight[cell.at()]
+                       : steps_by_definition(cell, choices_[p], partition.claims.delay, partition.longest);
+      }
+      compare_steps(context_, partition.delay, cell, partition.delays[cell.at()], expected);
       // In B_1 blind delay and countdown agree; which cells are in B_1 is checked later.
       const std::int32_t claimed = partition.claims.delay[cell.at()];
       const bool is_out = claimed == 0 && expected >= 0 && !partition.classes.empty() && !cell.is_over();
-      compare(partition.countdown, cell, claimed, is_out ? 0 : expected);
+      compare_steps(context_, partition.countdown, cell, claimed, is_out ? 0 : expected);
       if (cell.is_invariant() && !cell.is_over()) check_rows(cell, partition);
     }
   }
 
  private:
-  static void keep_actions(const CheckedCell& cell, BlindPartitionCheck& partition) {
+  static void keep_actions(const CheckedCell& cell, const ClassChoices& choices,
+                           BlindPartitionCheck& partition) {
     ++partition.looked_at;
-    const std::vector<std::uint8_t>& admitted = cell.admitted();
-    for (BlindClass& one : partition.classes) {
-      for (std::size_t u = 0; u < admitted.size(); ++u) {
-        if (admitted[u] == 0) continue;
-        const std::int64_t a = one.own.action(static_cast<std::int64_t>(u));
-        std::uint8_t& byte = one.admitted[at(cell.number() * one.own.bytes() + a / 8)];
-        byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
+    for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+      BlindClass& one = partition.classes[c];
+      const std::vector<std::uint8_t>& actions = choices.actions()[c];
+      for (std::size_t a = 0; a < actions.size(); ++a) {
+        std::uint8_t& byte = one.admitted[cell.at() * at(one.own.bytes()) + a / 8];
+        byte = static_cast<std::uint8_t>(byte | actions[a] << (a % 8));
       }
     }
-  }
-
-  [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell,
-                                                 const BlindPartitionCheck& partition) const {
-    if (partition.classes.empty()) return partition.of_sight[cell.at()];
-    bool any = cell.is_over();
-    std::int32_t worst = kUnbounded;
-    const std::int64_t inputs = cell.is_over() ? 0 : context_.inputs->count();
-    for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
-      const bool is_chosen = std::ranges::all_of(partition.classes, [&](const BlindClass& one) {
-        return one.has(cell.number(), one.own.action(u));
-      });
-      if (!is_chosen) continue;
-      any = true;
-      const std::int32_t least =
-          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, partition.claims.delay, kOutsideInvariant);
-      worst = std::min(worst, std::max(least, kOutsideInvariant));
-    }
-    const std::int32_t delay = any ? one_more(worst) : 0;
-    return partition.longest ? std::min(delay, static_cast<std::int32_t>(*partition.longest)) : delay;
-  }
-
-  void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
-    tally.add_checked(1);
-    if (claimed == expected) return;
-    if (context_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
-    add_wrong_steps(tally, cell, claimed, expected);
   }
 
   /// No row may hold an action that is not admissible in a cell in which the system may be.
@@ -196,45 +179,24 @@ class BlindChecker : public CellChecker {
 
   const CheckContext& context_;
   std::deque<BlindPartitionCheck>& partitions_;
+  std::deque<ClassChoices> choices_;  ///< [partition]
 };
 
-class BlindCheck : public AnswerCheck {
+class BlindCheck : public StepsCheck<BlindPartitionCheck> {
  public:
-  explicit BlindCheck(const CheckContext& context) : AnswerCheck(CheckSection::steps), context_(context) {
-    for (std::size_t p = 0; p < context.spec->coordination.partitions.size(); ++p)
-      partitions_.emplace_back(context, p);
-  }
+  using StepsCheck::StepsCheck;
 
-  std::vector<Finding> compare_sizes(Comparison& sizes) override {
-    std::vector<Finding> findings;
-    std::size_t longest = 1;
-    for (const BlindPartitionCheck& partition : partitions_)
-      findings.push_back(compare_layers(*context_.spec, *context_.claims, partition.claims, longest));
-    sizes.expect("length of /blind_layer", partitions_.front().claims.layer_sizes.size(), longest);
-    return findings;
-  }
   std::unique_ptr<CellChecker> cell_checker() override {
     return std::make_unique<BlindChecker>(context_, partitions_);
   }
   void check_all(ThreadTeam& /*team*/) override {
     for (BlindPartitionCheck& partition : partitions_) {
       if (partition.classes.empty() || partition.looked_at < context_.grid->cells()) continue;
-      if (partition.most != 0) check_first(partition);
+      if (partition.claims.most != 0) check_first(partition);
       for (const BlindClass& one : partition.classes) {
         if (one.table != nullptr) check_table(partition, one);
       }
     }
-  }
-  [[nodiscard]] std::vector<Finding> findings() const override {
-    std::vector<Finding> result;
-    for (const BlindPartitionCheck& partition : partitions_) {
-      result.push_back(partition.delay.finding());
-      result.push_back(partition.countdown.finding());
-      if (partition.classes.empty()) continue;
-      result.push_back(partition.first.finding());
-      result.push_back(partition.tables.finding());
-    }
-    return result;
   }
 
  private:
@@ -322,9 +284,6 @@ class BlindCheck : public AnswerCheck {
     }
     return is_same;
   }
-
-  const CheckContext& context_;
-  std::deque<BlindPartitionCheck> partitions_;
 };
 
 }  // namespace

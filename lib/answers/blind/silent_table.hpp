@@ -27,7 +27,7 @@ struct SilentTable {
   std::int64_t actions = 0;
   std::vector<std::uint8_t> missing_depth;  ///< [fibre * actions + action] depth of the deepest cell that
                                             ///< lacks the action; 0: no cell of B_1 does
-  std::vector<std::uint8_t> seen_depth;  ///< [fibre] depth of the deepest cell
+  std::vector<std::uint8_t> seen_depth;     ///< [fibre] depth of the deepest cell
 
   [[nodiscard]] std::int64_t fibres() const { return static_cast<std::int64_t>(seen_depth.size()); }
   /// Whether the action is in Q^k, which is empty if no cell of B_k is in the fibre.

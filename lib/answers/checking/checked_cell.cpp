@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "answers/checking/cell_place.hpp"
-#include "answers/checking/claimed_values.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -18,9 +17,11 @@ CheckedCell::CheckedCell(const CheckContext& context)
       delay_(context.claims->values("/delay")),
       arrival_(context.spec->ends_at_goal() ? &context.claims->values("/arrival") : nullptr),
       posts_(*context.posts),
-      allowed_(*context.spec, *context.grid, *context.inputs, context.claims->listed),
+      listed_(context.claims->listed),
       admitted_(static_cast<std::size_t>(context.inputs->count())) {
   if (context.tubes != nullptr) tubes_.emplace(*context.tubes);
+  if (const auto& allow = context.spec->controller.allow)
+    allow_.emplace(*context.spec, *allow, *context.grid, *context.inputs, "'allow'", "/controller/allow");
 }
 
 void CheckedCell::go_to(std::int64_t cell) {
@@ -30,7 +31,7 @@ void CheckedCell::go_to(std::int64_t cell) {
   if (!is_safe()) return;
   posts_.go_to(cell);
   if (tubes_) tubes_->go_to(cell);
-  allowed_.go_to(cell);
+  if (allow_) allow_->go_to(cell);
   if (is_invariant()) find_admitted();
 }
 
@@ -56,6 +57,22 @@ void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed
   tally.add_wrong(cell.number(), [&] {
     return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
   });
+}
+
+void add_choices(const CheckContext& context, Tally& tally, const CheckedCell& cell,
+                 const BitDifference& found, const std::string& words) {
+  tally.add_checked(1);
+  if (found.extra > 0) {
+    tally.add_wrong(cell.number(), [&] {
+      return fmt::format("{}: {}{} too many", cell.place(), found.extra, words.empty() ? "" : " " + words);
+    });
+  } else if (found.fewer && context.sound_only()) {
+    tally.add_unproven();
+  } else if (found.fewer) {
+    tally.add_wrong(cell.number(), [&] {
+      return fmt::format("{}: {} are missing", cell.place(), words.empty() ? "some" : words);
+    });
+  }
 }
 
 }  // namespace coordreq

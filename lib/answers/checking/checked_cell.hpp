@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "answers/checking/allowed_pairs.hpp"
+#include "answers/checking/cell_tubes.hpp"
 #include "answers/checking/check_context.hpp"
+#include "answers/checking/claimed_values.hpp"
+#include "answers/checking/permitted_inputs.hpp"
 #include "answers/checking/tally.hpp"
 #include "answers/step_codes.hpp"
 #include "base/requires.hpp"
@@ -47,10 +49,12 @@ class CheckedCell {
   [[nodiscard]] std::int64_t looked_at() const { return posts_.looked_at(); }
 
   // @pre unchecked: for the functions below, is_safe()
-  [[nodiscard]] bool is_allowed(std::int64_t u) const { return allowed_(u); }
+  [[nodiscard]] bool is_allowed(std::int64_t u) {
+    return !is_forbidden(u) && (!listed_ || listed_->test(cell_, u));
+  }
   /// Whether `allow` does not permit u, which then counts as blocked where classes act by themselves. A joint
   /// input that a controller file does not list is not forbidden.
-  [[nodiscard]] bool is_forbidden(std::int64_t u) const { return !allowed_.permits(u); }
+  [[nodiscard]] bool is_forbidden(std::int64_t u) { return allow_ && !allow_->holds(u); }
   /// Whether the tube under u is safe; true if only samples count.
   [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
   /// min over y in f(x, u) of values[y]; `forever` if the post has left safely, `blocked` if there is none.
@@ -76,8 +80,9 @@ class CheckedCell {
   const std::vector<std::int32_t>& delay_;    ///< of the first partition
   const std::vector<std::int32_t>* arrival_;  ///< where a goal ends the task, else null
   PostMinima posts_;
-  std::optional<CellTubes> tubes_;  ///< if tubes count
-  AllowedPairs allowed_;
+  std::optional<CellTubes> tubes_;            ///< if tubes count
+  const std::optional<PackedPairs>& listed_;  ///< by the controller file; nothing: the spec has none
+  std::optional<PermittedInputs> allow_;      ///< nothing: all joint inputs are allowed
   std::int64_t cell_ = 0;
   bool all_stay_ = false;
   std::vector<std::uint8_t> admitted_;
@@ -87,5 +92,9 @@ class CheckedCell {
 
 /// Adds a wrong claim about steps, coded as in `/delay`, to the tally.
 void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected);
+/// Adds stored choices to the tally, those that are missing as open if posts may be others than those of the
+/// analysis. @param words "actions", or empty
+void add_choices(const CheckContext& context, Tally& tally, const CheckedCell& cell,
+                 const BitDifference& found, const std::string& words);
 
 }  // namespace coordreq

@@ -29,10 +29,6 @@ class ClaimedProgress {
   [[nodiscard]] std::int32_t best(CheckedCell& cell) const;
   /// The greatest worst() of a step of P. @pre unchecked: is_on_the_way()
   [[nodiscard]] std::int32_t limit(CheckedCell& cell) const;
-  /// Whether every cell of f(x,u) is nearer to the goal, which does not last.
-  [[nodiscard]] bool comes_nearer(CheckedCell& cell, std::int64_t u) const {
-    return worst(cell, u) < arrival_[cell.at()];
-  }
   /// P(x) as [joint input] 1 or 0. @pre unchecked: is_on_the_way()
   [[nodiscard]] std::vector<std::uint8_t> of(CheckedCell& cell) const;
 

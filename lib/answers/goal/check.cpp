@@ -4,33 +4,45 @@
 
 #include <algorithm>
 #include <deque>
-#include <string>
+#include <iterator>
+#include <optional>
 #include <vector>
 
-#include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_progress.hpp"
-#include "answers/checking/claimed_values.hpp"
+#include "answers/checking/steps_check.hpp"
 #include "answers/goal/check_lasting.hpp"
 #include "answers/invariance/check_safe.hpp"
-#include "answers/step_codes.hpp"
-#include "model/input_class.hpp"
-#include "spec/partition_names.hpp"
-#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Findings of one partition that all threads share.
-struct ApproachTallies {
-  explicit ApproachTallies(const std::string& name)
-      : delay("approach delay " + name),
-        trigger("approach trigger " + name),
-        actions("actions to the goal " + name) {}
+/// The claims about one partition, and the findings that all threads share.
+struct ApproachClaims {
+  static constexpr const CountdownKind& kKind = kApproachKind;
 
+  ApproachClaims(const CheckContext& context, std::size_t p)
+      : claims(*context.spec, *context.claims, p, kKind, "/actions:goal"),
+        triggers(context.claims->values("/approach_trigger", p)),
+        safety(context.claims->values("/delay", p)),
+        fixed_point_of_safety(context.claims->at("/fixed_point_index").integers[p]),
+        delay("approach delay " + claims.partition.name),
+        trigger("approach trigger " + claims.partition.name),
+        actions("actions to the goal " + claims.partition.name) {}
+
+  [[nodiscard]] std::vector<Finding> findings() const {
+    std::vector<Finding> result = {delay.finding(), trigger.finding()};
+    if (!claims.actions.empty()) result.push_back(actions.finding());
+    return result;
+  }
+
+  PartitionClaims claims;
+  const std::vector<std::int32_t>& triggers;
+  const std::vector<std::int32_t>& safety;  ///< delays
+  std::int64_t fixed_point_of_safety;
   Tally delay, trigger, actions;
 };
 
-/// The tallies that all threads share.
+/// The tallies of no partition, which all threads share.
 struct GoalTallies {
   /// @param is_lasting arrival has more than one solution then
   explicit GoalTallies(bool is_lasting) : arrival(is_lasting ? "arrival (fixed point)" : "arrival") {}
@@ -38,73 +50,42 @@ struct GoalTallies {
   Tally goal{"goal"};
   Tally arrival;
   Tally controller{"controller to the goal"};
-  std::deque<ApproachTallies> approach;  // tallies cannot be moved
-};
-
-/// The claims of the file about the goal.
-struct GoalClaims {
-  explicit GoalClaims(const Claims& claims)
-      : arrival(claims.values("/arrival")),
-        delay(claims.at("/approach_delay").values),
-        trigger(claims.at("/approach_trigger").values),
-        safety(claims.at("/delay").values),
-        sizes(claims.at("/approach_layer_size").integers),
-        fixed_points(claims.at("/approach_fixed_point_index").integers),
-        of_safety(claims.at("/fixed_point_index").integers) {}
-
-  const std::vector<std::int32_t>& arrival;
-  const std::vector<std::vector<std::int32_t>>& delay;    ///< [partition][cell]
-  const std::vector<std::vector<std::int32_t>>& trigger;  ///< likewise
-  const std::vector<std::vector<std::int32_t>>& safety;   ///< delays, likewise
-  const std::vector<std::int64_t>& sizes;                 ///< [partition, layer]
-  const std::vector<std::int64_t>& fixed_points;          ///< [partition]
-  const std::vector<std::int64_t>& of_safety;             ///< likewise, of the delays
-};
-
-/// A class of a partition, and its actions in the file.
-struct GoalClass {
-  InputClass own;
-  const std::vector<std::uint8_t>* actions = nullptr;  ///< null: not stored
 };
 
 class GoalChecker : public CellChecker {
  public:
   /// @param lasting null: the goal is none
-  GoalChecker(const CheckContext& context, const GoalClaims& claims, GoalTallies& tallies, SafeMemory& memory,
-              LastingCheck* lasting)
+  GoalChecker(const CheckContext& context, GoalTallies& tallies, std::deque<ApproachClaims>& partitions,
+              SafeMemory& memory, LastingCheck* lasting)
       : context_(context),
         lasting_(lasting),
-        claims_(claims),
+        arrival_(context.claims->values("/arrival")),
         tallies_(tallies),
+        partitions_(partitions),
         by_definition_(context),
         controller_(context.claims->bits("/controller:goal")),
         judge_(*context.spec, *context.spec->goal, *context.grid, memory) {
-    const ProblemSpec& spec = *context.spec;
-    for (const PartitionSpec& partition : spec.coordination.partitions) {
-      std::vector<GoalClass>& all = classes_.emplace_back();
-      for (const auto& agents : partition.classes) {
-        const std::string name = class_name(spec.agents, agents);
-        GoalClass& one = all.emplace_back(GoalClass{class_of(spec, *context.inputs, agents)});
-        one.own.tabulate();
-        one.actions = context.claims->bits("/actions:goal/" + partition.name + "/" + name);
-      }
-    }
+    for (const ApproachClaims& one : partitions) choices_.emplace_back(context, one.claims.partition.classes);
   }
 
   void check(CheckedCell& cell) override {
-    const std::int32_t arrival = claims_.arrival[cell.at()];
+    const std::int32_t arrival = arrival_[cell.at()];
     // All cells of a goal that ends the task are in K, so that all cells of S are checked.
     if (lasting_ == nullptr && (context_.spec->ends_at_goal() ? cell.is_safe() : cell.is_invariant()))
       check_goal(cell, arrival == 0);
     check_arrival(cell, arrival);
     find_progress(cell, arrival);
     if (controller_ != nullptr)
-      compare(tallies_.controller, cell, compare_bits(*controller_, cell.at(), progress_));
-    for (std::size_t p = 0; p < classes_.size(); ++p) {
-      project(p);
-      check_approach(cell, p);
-      check_trigger(cell, p);
-      check_actions(cell, p);
+      add_choices(context_, tallies_.controller, cell, compare_bits(*controller_, cell.at(), progress_), "");
+    for (std::size_t p = 0; p < partitions_.size(); ++p) {
+      ApproachClaims& partition = partitions_[p];
+      choices_[p].go_to(cell.number(), progress_);
+      compare_steps(context_, partition.delay, cell, partition.claims.delay[cell.at()],
+                    approach_by_definition(cell, partition, choices_[p]));
+      compare_trigger(context_, partition.trigger, cell, partition.claims.delay[cell.at()],
+                      partition.triggers);
+      if (!partition.claims.actions.empty())
+        compare_actions(context_, partition.actions, cell, partition.claims, choices_[p], "");
     }
   }
 
@@ -116,43 +97,6 @@ class GoalChecker : public CellChecker {
     if (!cell.is_invariant()) return;
     if (arrival == 0) progress_ = cell.admitted();
     if (by_definition_.is_on_the_way(cell.at())) progress_ = by_definition_.of(cell);
-  }
-
-  /// The actions of each class of a partition that some joint input of P(x) has.
-  void project(std::size_t p) {
-    projections_.clear();
-    for (const GoalClass& one : classes_[p]) {
-      std::vector<std::uint8_t>& projection =
-          projections_.emplace_back(static_cast<std::size_t>(one.own.actions()), std::uint8_t{0});
-      for (std::size_t u = 0; u < progress_.size(); ++u) {
-        if (progress_[u] != 0)
-          projection[static_cast<std::size_t>(one.own.action(static_cast<std::int64_t>(u)))] = 1;
-      }
-    }
-  }
-
-  void check_actions(const CheckedCell& cell, std::size_t p) {
-    BitDifference found;
-    bool any = false;
-    for (std::size_t c = 0; c < classes_[p].size(); ++c) {
-      if (classes_[p][c].actions == nullptr) continue;
-      any = true;
-      const BitDifference difference = compare_bits(*classes_[p][c].actions, cell.at(), projections_[c]);
-      found = {.extra = found.extra + difference.extra, .fewer = found.fewer || difference.fewer};
-    }
-    if (any) compare(tallies_.approach[p].actions, cell, found);
-  }
-
-  void compare(Tally& tally, const CheckedCell& cell, const BitDifference& found) const {
-    tally.add_checked(1);
-    if (found.extra > 0) {
-      tally.add_wrong(cell.number(),
-                      [&] { return fmt::format("{}: {} too many", cell.place(), found.extra); });
-    } else if (found.fewer && context_.sound_only()) {
-      tally.add_unproven();
-    } else if (found.fewer) {
-      wrong(tally, cell, "some are missing");
-    }
   }
 
   /// Checks arrivals, approach delays and their triggers by their local equations: the equation of arrival
@@ -172,7 +116,7 @@ class GoalChecker : public CellChecker {
 
   void check_arrival(CheckedCell& cell, std::int32_t claimed) {
     tallies_.arrival.add_checked(1);
-    std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
+    std::int32_t expected = steps_outside(cell);
     if (cell.is_invariant() && lasting_ != nullptr) {
       expected = lasting_arrival(cell, claimed);
     } else if (cell.is_invariant()) {
@@ -204,56 +148,20 @@ class GoalChecker : public CellChecker {
     return judged.expected;
   }
 
-  void check_approach(CheckedCell& cell, std::size_t p) {
-    Tally& tally = tallies_.approach[p].delay;
-    tally.add_checked(1);
-    const std::int32_t claimed = claims_.delay[p][cell.at()];
-    const std::int32_t arrival = claims_.arrival[cell.at()];
-    std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
-    if (cell.is_invariant()) {
-      expected = arrival == kUnbounded                 ? kOutsideWinning
-                 : cell.is_over()                      ? kUnbounded
-                 : arrival == 0 && lasting_ == nullptr ? claims_.safety[p][cell.at()]
-                                                       : approach_by_definition(cell, p);
-      const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
-      if (most && claims_.fixed_points[p] < 0)
-        expected = std::min(expected, static_cast<std::int32_t>(*most));
+  [[nodiscard]] std::int32_t approach_by_definition(CheckedCell& cell, const ApproachClaims& partition,
+                                                    const ClassChoices& choices) {
+    if (!cell.is_invariant()) return steps_outside(cell);
+    const std::int32_t arrival = arrival_[cell.at()];
+    const std::optional<std::int32_t>& most = partition.claims.most;
+    const auto at_most = [&most](std::int32_t steps) { return most ? std::min(steps, *most) : steps; };
+    if (arrival == kUnbounded) return kOutsideWinning;
+    if (arrival == 0 && lasting_ == nullptr)
+      return at_most(cell.is_over() ? kUnbounded : partition.safety[cell.at()]);
+    const std::int32_t limit = by_definition_.limit(cell);
+    for (std::int64_t u = 0; u < choices.joint_inputs(); ++u) {
+      if (choices.has(u) && (cell.is_forbidden(u) || by_definition_.worst(cell, u) > limit)) return 0;
     }
-    if (claimed == expected) return;
-    // The file does not have the choices of agents.
-    if (context_.sound_only() && expected >= 0 && claimed >= 0) {
-      tally.add_unproven();
-    } else {
-      add_wrong_steps(tally, cell, claimed, expected);
-    }
-  }
-
-  [[nodiscard]] std::int32_t approach_by_definition(CheckedCell& cell, std::size_t p) {
-    std::vector<std::int64_t> choices;
-    const std::int32_t most = by_definition_.limit(cell);
-    for (std::int64_t u = 0; u < context_.inputs->count(); ++u) {
-      bool is_choice = true;
-      for (std::size_t c = 0; is_choice && c < projections_.size(); ++c)
-        is_choice = projections_[c][static_cast<std::size_t>(classes_[p][c].own.action(u))] != 0;
-      if (!is_choice) continue;
-      if (cell.is_forbidden(u) || by_definition_.worst(cell, u) > most) return 0;
-      choices.push_back(u);
-    }
-    std::int32_t worst = kUnbounded;
-    for (const std::int64_t u : choices) worst = std::min(worst, cell.least(u, claims_.delay[p], 0));
-    return one_more(std::max(worst, 0));
-  }
-
-  void check_trigger(const CheckedCell& cell, std::size_t p) {
-    Tally& tally = tallies_.approach[p].trigger;
-    tally.add_checked(1);
-    const std::int32_t delay = claims_.delay[p][cell.at()];
-    const std::int64_t needed = context_.spec->coordination.connection_delay;
-    const std::int32_t expected = delay < 0 || delay == kUnbounded ? delay
-                                  : delay < needed                 ? kMustBeConnected
-                                                   : static_cast<std::int32_t>(delay - needed);
-    const std::int32_t claimed = claims_.trigger[p][cell.at()];
-    if (claimed != expected) add_wrong_steps(tally, cell, claimed, expected);
+    return steps_by_definition(cell, choices, partition.claims.delay, most, 0);
   }
 
   static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
@@ -262,33 +170,28 @@ class GoalChecker : public CellChecker {
 
   const CheckContext& context_;
   LastingCheck* lasting_;
-  const GoalClaims& claims_;
+  const std::vector<std::int32_t>& arrival_;
   GoalTallies& tallies_;
+  std::deque<ApproachClaims>& partitions_;
   ClaimedProgress by_definition_;
   const std::vector<std::uint8_t>* controller_;  ///< null: not stored
   SafeJudge judge_;
-  std::vector<std::vector<GoalClass>> classes_;  ///< [partition]
-  // The cell being checked:
-  std::vector<std::uint8_t> progress_;                  ///< see find_progress()
-  std::vector<std::vector<std::uint8_t>> projections_;  ///< [class of the partition being checked][action]
+  std::vector<std::uint8_t> progress_;  ///< of the cell being checked, see find_progress()
+  std::deque<ClassChoices> choices_;    ///< [partition] of it
 };
 
-class GoalCheck : public AnswerCheck {
+class GoalCheck : public StepsCheck<ApproachClaims> {
  public:
   explicit GoalCheck(const CheckContext& context)
-      : AnswerCheck(CheckSection::steps),
-        context_(context),
-        claims_(*context.claims),
+      : StepsCheck(context),
         memory_(*context.spec->goal, *context.grid),
         tallies_(context.spec->is_goal_lasting()) {
-    for (const PartitionSpec& partition : context.spec->coordination.partitions)
-      tallies_.approach.emplace_back(partition.name);
     if (context.spec->is_goal_lasting()) lasting_.emplace(context);
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::int64_t goal = 0, winning = 0, longest = -1;
-    for (const std::int32_t arrival : claims_.arrival) {
+    for (const std::int32_t arrival : context_.claims->values("/arrival")) {
       goal += arrival == 0 ? 1 : 0;
       if (arrival < 0 || arrival == kUnbounded) continue;
       ++winning;
@@ -300,12 +203,13 @@ class GoalCheck : public AnswerCheck {
     sizes.expect("longest arrival", claims.attribute("/arrival", "longest_arrival"), longest);
     std::vector<Finding> findings;
     std::size_t layers = 1;
-    for (std::size_t p = 0; p < claims_.delay.size(); ++p) findings.push_back(compare_layers(p, layers));
-    sizes.expect("length of /approach_layer", claims_.sizes.size(), layers * claims_.delay.size());
+    for (const ApproachClaims& one : partitions_) findings.push_back(compare_layers(one, layers));
+    sizes.expect("length of /approach_layer", claims.at("/approach_layer_size").integers.size(),
+                 layers * partitions_.size());
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
-    return std::make_unique<GoalChecker>(context_, claims_, tallies_, memory_,
+    return std::make_unique<GoalChecker>(context_, tallies_, partitions_, memory_,
                                          lasting_ ? &*lasting_ : nullptr);
   }
   void check_all(ThreadTeam& team) override {
@@ -315,24 +219,21 @@ class GoalCheck : public AnswerCheck {
     std::vector<Finding> result = {tallies_.goal.finding(), tallies_.arrival.finding()};
     if (lasting_) std::ranges::move(lasting_->findings(), std::back_inserter(result));
     if (context_.spec->output.controller) result.push_back(tallies_.controller.finding());
-    for (const ApproachTallies& tallies : tallies_.approach) {
-      result.push_back(tallies.delay.finding());
-      result.push_back(tallies.trigger.finding());
-      if (context_.spec->output.actions) result.push_back(tallies.actions.finding());
-    }
+    std::ranges::move(StepsCheck::findings(), std::back_inserter(result));
     return result;
   }
 
  private:
   /// Compares |A_k| of one partition, and F, with the delays of its cells.
   /// @param layers the most layers of any partition so far
-  [[nodiscard]] Finding compare_layers(std::size_t p, std::size_t& layers) const {
-    Comparison comparison("approach layers " + context_.spec->coordination.partitions[p].name);
-    const std::size_t length = claims_.sizes.size() / claims_.delay.size();
+  [[nodiscard]] Finding compare_layers(const ApproachClaims& partition, std::size_t& layers) const {
+    const PartitionClaims& claims = partition.claims;
+    Comparison comparison(claims.kind.words + (" " + claims.partition.name));
+    const std::size_t length = claims.layer_sizes.size();
     std::vector<std::int64_t> sizes(length, 0);
     std::int64_t last = -1;  // the greatest delay that is not unbounded
     bool unbounded = false;
-    for (const std::int32_t delay : claims_.delay[p]) {
+    for (const std::int32_t delay : claims.delay) {
       if (delay < 0) continue;
       unbounded = unbounded || delay == kUnbounded;
       if (delay != kUnbounded) last = std::max(last, std::int64_t{delay});
@@ -341,33 +242,31 @@ class GoalCheck : public AnswerCheck {
         ++sizes[k];
     }
     for (std::size_t k = 0; k < length; ++k)
-      comparison.expect(fmt::format("|A_{}|", k), claims_.sizes[p * length + k], sizes[k]);
-    const std::int64_t index = claims_.fixed_points[p];
-    comparison.expect("F", index, is_stopped(p, last, unbounded, index < 0) ? -1 : last + 1);
+      comparison.expect(fmt::format("|A_{}|", k), claims.layer_sizes[k], sizes[k]);
+    const std::int64_t index = claims.fixed_point_index;
+    comparison.expect("F", index, is_stopped(partition, last, unbounded) ? -1 : last + 1);
     layers = std::max(layers, static_cast<std::size_t>(index < 0 ? last : last + 1) + 1);
     return comparison.finding();
   }
 
   /// Whether `max_delay` M stopped the iteration: unless A_M is empty, or A and Z (A alone, of a goal that
-  /// lasts) stood still before.
-  /// @param claimed whether the file says so; then cells of delay M are those of the last layer
-  [[nodiscard]] bool is_stopped(std::size_t p, std::int64_t last, bool unbounded, bool claimed) const {
+  /// lasts) stood still before. If the file says so, cells of delay M are those of the last layer.
+  [[nodiscard]] bool is_stopped(const ApproachClaims& partition, std::int64_t last, bool unbounded) const {
     const std::optional<std::int64_t> most = context_.spec->coordination.max_delay;
     if (!most) return false;
+    const bool claimed = partition.claims.fixed_point_index < 0;
     if (claimed && (unbounded || last != *most)) return false;
     if (!claimed && !unbounded) return last >= *most;  // the layers were empty before
     std::int64_t fixed = 0;                            // A_k is constant from here on
-    for (const std::int32_t delay : claims_.delay[p]) {
+    for (const std::int32_t delay : partition.claims.delay) {
       if (delay >= 0 && delay != kUnbounded && delay < *most)
         fixed = std::max(fixed, std::int64_t{delay} + 1);
     }
     if (lasting_) return fixed >= *most;
-    const std::int64_t of_safety = claims_.of_safety[p];
+    const std::int64_t of_safety = partition.fixed_point_of_safety;
     return of_safety < 0 || std::max(fixed, of_safety) >= *most;
   }
 
-  const CheckContext& context_;
-  GoalClaims claims_;
   SafeMemory memory_;
   GoalTallies tallies_;
   std::optional<LastingCheck> lasting_;

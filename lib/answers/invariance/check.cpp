@@ -112,17 +112,8 @@ class SetChecker : public CellChecker {
   }
 
   void check_controller(const CheckedCell& cell) {
-    tallies_.controller.add_checked(1);
-    const BitDifference found = compare_bits(*controller_, cell.at(), cell.admitted());
-    if (found.extra > 0) {
-      tallies_.controller.add_wrong(cell.number(), [&] {
-        return fmt::format("{}: {} joint inputs too many", cell.place(), found.extra);
-      });
-    } else if (found.fewer && context_.sound_only()) {
-      tallies_.controller.add_unproven();
-    } else if (found.fewer) {
-      wrong(tallies_.controller, cell, "joint inputs are missing");
-    }
+    add_choices(context_, tallies_.controller, cell, compare_bits(*controller_, cell.at(), cell.admitted()),
+                "joint inputs");
   }
 
   static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {

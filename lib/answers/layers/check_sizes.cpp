@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "answers/layers/stored_partition.hpp"
 #include "answers/step_codes.hpp"
@@ -74,41 +73,35 @@ void check_lists(const PartitionClaims& claims, const StoredLayers& stored, cons
 void check_sizes(const PartitionClaims& claims, const Layers& layers, Comparison& comparison) {
   comparison.expect("F", claims.fixed_point_index, layers.fixed_point_index);
   for (std::size_t k = 0; k < claims.layer_sizes.size(); ++k) {
-    comparison.expect(fmt::format("|{}_{}|", claims.meant.letter, k), claims.layer_sizes[k],
+    comparison.expect(fmt::format("|{}_{}|", claims.kind.letter, k), claims.layer_sizes[k],
                       layers.sizes[std::min(k, layers.sizes.size() - 1)]);
   }
 }
 
 }  // namespace
 
-LayersMeant blind_layers_meant() {
-  return {"/blind_countdown", "/blind_delay", "/blind_", "blind layers", 'B'};
-}
-
-LayersMeant silence_layers_meant() {
-  return {"/silence", "/silence", "/silence_", "silence layers", 'L'};
-}
-
 PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p,
-                                 LayersMeant layers)
-    : meant(std::move(layers)),
+                                 const CountdownKind& countdown, const std::string& root)
+    : kind(countdown),
       partition(spec.coordination.partitions[p]),
-      delay(claims.values(meant.delay, p)),
-      trigger(claims.values(meant.trigger, p)),
-      fixed_point_index(claims.at(meant.prefix + "fixed_point_index").integers[p]) {
-  const std::vector<std::int64_t>& sizes = claims.at(meant.prefix + "layer_size").integers;
+      delay(claims.values(kind.layered, p)),
+      fixed_point_index(claims.at(kind.prefix() + "fixed_point_index").integers[p]) {
+  const std::vector<std::int64_t>& sizes = claims.at(kind.prefix() + "layer_size").integers;
   const auto length = static_cast<std::ptrdiff_t>(sizes.size() / spec.coordination.partitions.size());
   const auto row = sizes.begin() + static_cast<std::ptrdiff_t>(p) * length;
   layer_sizes.assign(row, row + length);
+  if (fixed_point_index < 0 && spec.coordination.max_delay)
+    most = static_cast<std::int32_t>(*spec.coordination.max_delay);
   for (const auto& agents : partition.classes) {
-    const auto* const own = claims.bits("/actions/" + partition.name + "/" + class_name(spec.agents, agents));
+    const std::string name = class_name(spec.agents, agents);
+    const auto* const own = claims.bits(root + "/" + partition.name + "/" + name);
     if (own != nullptr) actions.push_back(own);
   }
 }
 
 Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const PartitionClaims& partition,
                        std::size_t& longest) {
-  Comparison comparison(partition.meant.words + " " + partition.partition.name);
+  Comparison comparison(partition.kind.words + (" " + partition.partition.name));
   const std::optional<Layers> layers = layers_of(spec, partition);
   if (!layers) {
     comparison.expect<std::string_view>(
@@ -118,7 +111,7 @@ Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const Part
   }
   longest = std::max(longest, layers->sizes.size());
   check_sizes(partition, *layers, comparison);
-  if (spec.output.layers && partition.meant.prefix == "/")
+  if (spec.output.layers && *partition.kind.name == '\0')
     check_lists(partition, read_layer_lists(spec, partition.partition, claims), *layers, comparison);
   return comparison.finding();
 }

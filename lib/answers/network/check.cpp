@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <deque>
-#include <optional>
 
 #include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_values.hpp"
-#include "answers/checking/independent_choices.hpp"
-#include "answers/checking/ruled_choices.hpp"
+#include "answers/checking/class_choices.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -51,10 +49,9 @@ class NetworkChecker : public CellChecker {
         inputs_(static_cast<std::size_t>(context.inputs->count())),
         choices_(network.partitions.size()) {
     for (const auto& partition : network.partitions) {
-      independent_.emplace_back(context, partition);
-      std::optional<RuledChoices>& ruled = ruled_.emplace_back();
-      if (network.spec.acts_by_rule && partition.size() > 1)
-        ruled.emplace(context, context.spec->silence->actions, "actions", partition);
+      const bool has_rules = network.spec.acts_by_rule && partition.size() > 1;
+      by_class_.emplace_back(context, partition,
+                             has_rules ? ClassChoices::Rules::actions : ClassChoices::Rules::none);
     }
   }
 
@@ -62,8 +59,8 @@ class NetworkChecker : public CellChecker {
     cell_ = &cell;
     if (cell.is_invariant() && !network_.spec.resynthesise) {
       for (std::size_t p = 0; p < choices_.size(); ++p) {
-        choices_[p] =
-            ruled_[p] ? ruled_[p]->of(cell.number(), cell.admitted()) : independent_[p].of(cell.admitted());
+        by_class_[p].go_to(cell.number(), cell.admitted());
+        choices_[p] = by_class_[p].joint();
       }
     }
     for (std::size_t mode = 0; mode < network_.spec.modes.size(); ++mode) {
@@ -95,7 +92,9 @@ class NetworkChecker : public CellChecker {
 
   [[nodiscard]] bool can_take_care(std::size_t mode) {
     const std::vector<std::uint8_t> good = allowed_into(network_.target[mode]);
-    const std::vector<std::int64_t> mixed = independent_[network_.partition_of[mode]].of(good);
+    ClassChoices& classes = by_class_[network_.partition_of[mode]];
+    classes.go_to(cell_->number(), good);
+    const std::vector<std::int64_t> mixed = classes.joint();
     return !mixed.empty() && std::all_of(mixed.begin(), mixed.end(), [&good](std::int64_t u) {
       return good[static_cast<std::size_t>(u)] != 0;
     });
@@ -134,8 +133,7 @@ class NetworkChecker : public CellChecker {
   Tally& tally_;
   const std::vector<Members>& claimed_;  ///< [mode][cell]
   std::size_t inputs_;
-  std::vector<IndependentChoices> independent_;     ///< [partition]
-  std::deque<std::optional<RuledChoices>> ruled_;   ///< [partition] of agents that act by rules
+  std::deque<ClassChoices> by_class_;               ///< [partition] by rules, if agents act by them
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell, or A
   CheckedCell* cell_ = nullptr;                     ///< the cell being checked
 };

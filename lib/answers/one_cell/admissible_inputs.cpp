@@ -28,7 +28,8 @@ bool is_literal_true(const Program& program) {
 AdmissibleInputs::AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Sets sets)
     : spec_(&spec), posts_(&posts), sets_(std::move(sets)) {
   if (spec.controller.allow && !is_literal_true(*spec.controller.allow)) {
-    allow_ = std::make_unique<PairTruth>(spec, *spec.controller.allow, posts, "'allow'", "/controller/allow");
+    allow_.emplace(spec, *spec.controller.allow, posts.grid(), posts.inputs(), "'allow'",
+                   "/controller/allow");
   }
   find_components();
 }
@@ -72,6 +73,12 @@ void AdmissibleInputs::find_components() {
   }
 }
 
+bool AdmissibleInputs::forbids(std::int64_t x, std::int64_t u) {
+  if (!allow_) return false;
+  allow_->go_to(x);
+  return !allow_->holds(u);
+}
+
 bool AdmissibleInputs::allows(std::int64_t x, std::int64_t u) {
   return !forbids(x, u) && (!sets_.listed || sets_.listed(x, u));
 }
@@ -97,7 +104,7 @@ std::optional<AdmissibleInputs::Move> AdmissibleInputs::move(const Component& co
 
 /// Finds the moves of a component, each with the inputs that lead to it, of those that `allow` permits and
 /// that are not blocked.
-void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
+void AdmissibleInputs::find_moves(Component& component) {
   std::vector<std::int64_t> counts;
   for (const std::size_t i : component.inputs) counts.push_back(posts_->inputs()[i].count());
   std::map<Move, std::vector<std::int64_t>> groups;
@@ -107,7 +114,7 @@ void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
     for (std::size_t j = 0; j < component.inputs.size(); ++j) {
       part += choice.indices()[j] * posts_->inputs().stride(component.inputs[j]);
     }
-    if (component.has_allow && !allow_->holds(x, part)) continue;
+    if (component.has_allow && !allow_->holds(part)) continue;
     if (std::optional<Move> next = move(component, part)) groups[std::move(*next)].push_back(part);
   } while (choice.advance());
   component.groups.assign(groups.begin(), groups.end());
@@ -115,11 +122,12 @@ void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
 
 const std::vector<std::int64_t>& AdmissibleInputs::of(std::int64_t x) {
   admissible_.clear();
-  if (allow_ && !allow_has_inputs_ && !allow_->holds(x, 0)) return admissible_;
+  if (allow_) allow_->go_to(x);
+  if (allow_ && !allow_has_inputs_ && !allow_->holds(0)) return admissible_;
   if (spec_->controller.synthesis != Synthesis::given) posts_->move_to(x);
   std::vector<std::int64_t> counts;
   for (Component& component : components_) {
-    find_moves(component, x);
+    find_moves(component);
     if (component.groups.empty()) return admissible_;
     counts.push_back(static_cast<std::int64_t>(component.groups.size()));
   }

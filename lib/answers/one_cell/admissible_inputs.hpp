@@ -2,14 +2,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "answers/checking/permitted_inputs.hpp"
 #include "answers/one_cell/cell_members.hpp"
 #include "answers/one_cell/cell_posts.hpp"
-#include "answers/one_cell/pair_truth.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -42,7 +41,7 @@ class AdmissibleInputs {
   /// Whether `allow` permits u at any cell x of the grid, and `controller.file` lists it.
   [[nodiscard]] bool allows(std::int64_t x, std::int64_t u);
   /// Whether `allow` does not permit u at x; a joint input that the file does not list is not forbidden.
-  [[nodiscard]] bool forbids(std::int64_t x, std::int64_t u) { return allow_ && !allow_->holds(x, u); }
+  [[nodiscard]] bool forbids(std::int64_t x, std::int64_t u);
 
  private:
   using Box = std::vector<IndexRange>;  ///< of some states
@@ -62,7 +61,7 @@ class AdmissibleInputs {
   };
 
   void find_components();
-  void find_moves(Component& component, std::int64_t x);
+  void find_moves(Component& component);
   [[nodiscard]] std::optional<Move> move(const Component& component, std::int64_t u) const;
   void cover(Box Move::*part, CellMembers& set) const;
   void prepare_sets();
@@ -78,7 +77,7 @@ class AdmissibleInputs {
   CellMembers* safe_beyond_ =
       nullptr;  ///< of the last cell: the set in which tubes that pass a limit must stay
   std::vector<Component> components_;
-  std::unique_ptr<PairTruth> allow_;  ///< null if all joint inputs are allowed
+  std::optional<PermittedInputs> allow_;  ///< nothing if all joint inputs are allowed
   bool allow_has_inputs_ = false;
   std::vector<std::int64_t> admissible_;
   std::vector<bool> marks_;

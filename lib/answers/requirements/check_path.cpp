@@ -25,13 +25,11 @@ PathChecker::PathChecker(const CheckContext& context, const RequirementSpec& ask
   }
   if (!asked.partition) return;
   partition_ = static_cast<std::size_t>(*asked.partition);
-  for (const auto& agents : context.spec->coordination.partitions[*partition_].classes)
-    classes_.emplace_back(class_of(*context.spec, *context.inputs, agents)).tabulate();
+  const auto& classes = context.spec->coordination.partitions[*partition_].classes;
+  choices_.emplace(context, classes);
   if (asked.kind != RequirementKind::min_silence) return;
-  const SilenceSpec& silence = *context.spec->silence;
-  const auto& partition = context.spec->coordination.partitions[*partition_].classes;
-  silent_.emplace(context, silence.actions, "actions", partition);
-  if (silence.has_then()) afterwards_.emplace(context, silence.then, "then", partition);
+  silent_.emplace(context, classes, ClassChoices::Rules::actions);
+  if (context.spec->silence->has_then()) afterwards_.emplace(context, classes, ClassChoices::Rules::then);
 }
 
 void PathChecker::wrong(std::size_t number, const std::string& what) {
@@ -181,7 +179,7 @@ void PathChecker::check_evasive(std::size_t step, std::int64_t u) {
 }
 
 void PathChecker::check_silent(std::size_t step, std::int64_t u) {
-  if (!std::ranges::binary_search(silent_->of(cell_.number(), cell_.admitted()), u))
+  if (!is_permitted(u, *silent_))
     differs(step, "the communication-loss rule does not permit the joint input");
   const std::int32_t delay = path_->delay[step];
   const bool goes_on = step + 1 < path_->samples();
@@ -191,8 +189,7 @@ void PathChecker::check_silent(std::size_t step, std::int64_t u) {
 
 /// Checks a step by `then`; the file does not have the times at which steps leave S.
 void PathChecker::check_afterwards(std::size_t step, std::int64_t u) {
-  if (!std::ranges::binary_search(afterwards_->of(cell_.number(), cell_.admitted()), u))
-    differs(step, "the fallback rule does not permit the joint input");
+  if (!is_permitted(u, *afterwards_)) differs(step, "the fallback rule does not permit the joint input");
   if (step + 1 < path_->samples() && path_->delay[step + 1] >= 0) differs(step, "returns to the silence set");
 }
 
@@ -201,8 +198,9 @@ bool PathChecker::ends_without_rule(std::size_t cell) {
   if (!silent_) return false;
   const bool is_silent = value_of_(cell) >= 0;
   if (!is_silent && !afterwards_) return false;
-  RuledChoices& rules = is_silent ? *silent_ : *afterwards_;
-  return rules.of(cell_.number(), cell_.admitted()).empty();
+  ClassChoices& rules = is_silent ? *silent_ : *afterwards_;
+  rules.go_to(cell_.number(), cell_.admitted());
+  return rules.is_empty();
 }
 
 void PathChecker::check_next(std::size_t step, std::int64_t u) {
@@ -309,14 +307,14 @@ void PathChecker::check_cycle(std::size_t begin) {
   wrong(path_->samples(), is_stay ? "the cells that repeat are in the goal" : "the goal is visited again");
 }
 
-bool PathChecker::is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const {
-  return std::all_of(classes_.begin(), classes_.end(), [&](const InputClass& input_class) {
-    for (std::size_t v = 0; v < joint.size(); ++v) {
-      if (joint[v] != 0 && input_class.action(static_cast<std::int64_t>(v)) == input_class.action(u))
-        return true;
-    }
-    return false;
-  });
+bool PathChecker::is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) {
+  choices_->go_to(cell_.number(), joint);
+  return choices_->has(u);
+}
+
+bool PathChecker::is_permitted(std::int64_t u, ClassChoices& rules) const {
+  rules.go_to(cell_.number(), cell_.admitted());
+  return rules.has(u);
 }
 
 std::size_t PathChecker::entry(const Posts& posts, std::size_t i, std::int64_t u) const {

@@ -8,11 +8,10 @@
 #include "answers/checking/checked_cell.hpp"
 #include "answers/checking/claimed_progress.hpp"
 #include "answers/checking/claimed_values.hpp"
-#include "answers/checking/ruled_choices.hpp"
+#include "answers/checking/class_choices.hpp"
 #include "answers/checking/tally.hpp"
 #include "answers/invariance/check_safe.hpp"
 #include "answers/requirements/result_requirement.hpp"
-#include "model/input_class.hpp"
 
 namespace coordreq {
 
@@ -49,7 +48,9 @@ class PathChecker {
 
   [[nodiscard]] std::optional<std::int64_t> input_of(std::size_t step) const;
   /// Whether the action of each class in u occurs in some of these joint inputs.
-  [[nodiscard]] bool is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const;
+  [[nodiscard]] bool is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint);
+  /// Whether the rules of agents permit u at the present cell.
+  [[nodiscard]] bool is_permitted(std::int64_t u, ClassChoices& rules) const;
   [[nodiscard]] bool is_in_post(std::int64_t u, std::int64_t next) const;
   [[nodiscard]] bool leaves_domain(std::int64_t u, const ResultSide& side) const;
   [[nodiscard]] const ResolvedRange& range(std::size_t i, std::int64_t u) const;
@@ -68,8 +69,8 @@ class PathChecker {
   std::optional<ClaimedProgress> progress_;  ///< of requirements about the goal
   std::optional<SafeMemory> goal_memory_;    ///< of a lasting goal, with the next
   std::optional<SafeJudge> goal_;
-  std::vector<InputClass> classes_;
-  std::optional<RuledChoices> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
+  std::optional<ClassChoices> choices_;              ///< with a partition
+  std::optional<ClassChoices> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
   CheckedCell cell_;                                 ///< of the sample being checked
   const ResultPath* path_ = nullptr;
   Tally* tally_ = nullptr;

@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "answers/checking/class_choices.hpp"
 #include "answers/goal/arrival.hpp"
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/progress_inputs.hpp"
-#include "answers/one_cell/silent_inputs.hpp"
 #include "answers/requirements/escape_run.hpp"
 #include "answers/requirements/escape_step.hpp"
 #include "spec/problem_spec.hpp"
@@ -38,9 +38,11 @@ class EscapeFinder : public EscapeRun {
         progress_(context_.spec, posts_, [this](std::int64_t y) { return arrival(y); }),
         steps_(sets, posts_, inputs_, real_) {
     if (sets.silence_of == nullptr) return;
-    silent_.emplace(context_.spec, SilentInputs::Part::actions, sets.partition->classes, posts_);
+    silent_.emplace(context_.spec, grid_, posts_.inputs(), sets.partition->classes,
+                    ClassChoices::Rules::actions);
     if (sets.lost != nullptr)
-      afterwards_.emplace(context_.spec, SilentInputs::Part::then, sets.partition->classes, posts_);
+      afterwards_.emplace(context_.spec, grid_, posts_.inputs(), sets.partition->classes,
+                          ClassChoices::Rules::then);
   }
 
  private:
@@ -229,28 +231,28 @@ class EscapeFinder : public EscapeRun {
     const std::int64_t cell = path_.cells.back();
     const std::int64_t layers = level_of(*sets_.silence_of, cell);
     const bool is_invariant = sets_.invariance->invariant.test(cell);
-    const auto choices = silent_->joint(cell, is_invariant ? inputs_.of(cell) : SilentInputs::Numbers());
+    silent_->go_to(cell, is_invariant ? inputs_.of(cell) : ClassChoices::Numbers());
     const bool is_last = layers == 1;
     const LevelMap& levels = !is_last                ? *sets_.silence_of
                              : sets_.lost != nullptr ? *sets_.lost
                                                      : collision_time_;
-    return take_ruled(choices, is_last ? kLeast : layers - 1, levels, EscapePhase::silent);
+    return take_ruled(*silent_, is_last ? kLeast : layers - 1, levels, EscapePhase::silent);
   }
 
   bool take_afterwards() {
     const std::int64_t cell = path_.cells.back();
-    return take_ruled(afterwards_->joint(cell, {}), level_of(*sets_.lost, cell) - 1, *sets_.lost,
-                      EscapePhase::afterwards);
+    afterwards_->go_to(cell, ClassChoices::Numbers());
+    return take_ruled(*afterwards_, level_of(*sets_.lost, cell) - 1, *sets_.lost, EscapePhase::afterwards);
   }
 
   /// One step of agents who act by rules.
-  bool take_ruled(const SilentInputs::Numbers& choices, std::int64_t target, const LevelMap& levels,
+  bool take_ruled(const ClassChoices& choices, std::int64_t target, const LevelMap& levels,
                   EscapePhase phase) {
-    if (choices.empty()) {
+    if (choices.is_empty()) {
       path_.end = EscapeEnd::no_silent_action;
       return false;
     }
-    const auto is_choice = [&](std::int64_t u) { return std::ranges::binary_search(choices, u); };
+    const auto is_choice = [&](std::int64_t u) { return choices.has(u); };
     return take(find(levels, target, is_choice), levels, phase);
   }
 
@@ -290,7 +292,7 @@ class EscapeFinder : public EscapeRun {
   MembersByCell invariant_, safe_, beyond_;
   AdmissibleInputs inputs_;
   ProgressInputs progress_;
-  std::optional<SilentInputs> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
+  std::optional<ClassChoices> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
   EscapeSteps steps_;
 };
 

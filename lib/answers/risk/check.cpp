@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "answers/checking/answer_check.hpp"
-#include "answers/checking/independent_choices.hpp"
-#include "answers/checking/ruled_choices.hpp"
+#include "answers/checking/class_choices.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -112,10 +111,9 @@ class RiskStep {
       partition_of_.push_back(static_cast<std::size_t>(known - partitions_.begin()));
       if (known != partitions_.end()) continue;
       partitions_.push_back(mode.partition.classes);
-      independent_.emplace_back(context, mode.partition.classes);
-      std::optional<RuledChoices>& told = told_.emplace_back();
-      if (context.spec->silence && mode.partition.classes.size() > 1)
-        told.emplace(context, context.spec->silence->actions, "actions", mode.partition.classes);
+      const bool has_rules = context.spec->silence && mode.partition.classes.size() > 1;
+      by_class_.emplace_back(context, mode.partition.classes,
+                             has_rules ? ClassChoices::Rules::actions : ClassChoices::Rules::none);
     }
     choices_.resize(partitions_.size());
   }
@@ -123,9 +121,10 @@ class RiskStep {
   /// Goes to a cell of K.
   void go_to(CheckedCell& cell) {
     cell_ = &cell;
-    for (std::size_t p = 0; p < choices_.size(); ++p)
-      choices_[p] =
-          told_[p] ? told_[p]->of(cell.number(), cell.admitted()) : independent_[p].of(cell.admitted());
+    for (std::size_t p = 0; p < choices_.size(); ++p) {
+      by_class_[p].go_to(cell.number(), cell.admitted());
+      choices_[p] = by_class_[p].joint();
+    }
   }
   /// T of a mode at the cell.
   [[nodiscard]] double risk(std::size_t mode, const Ranked& after) {
@@ -151,8 +150,7 @@ class RiskStep {
   std::vector<bool> is_least_;  ///< [mode]
   std::vector<std::vector<std::vector<std::int32_t>>> partitions_;
   std::vector<std::size_t> partition_of_;  ///< [mode]
-  std::vector<IndependentChoices> independent_;
-  std::deque<std::optional<RuledChoices>> told_;  ///< [partition] choices of agents who act by rules
+  std::deque<ClassChoices> by_class_;      ///< [partition] by rules, if there are some
   CheckedCell* cell_ = nullptr;
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition]
 };

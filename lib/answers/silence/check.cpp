@@ -7,12 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "answers/checking/answer_check.hpp"
 #include "answers/checking/cell_place.hpp"
-#include "answers/checking/claimed_values.hpp"
-#include "answers/checking/ruled_choices.hpp"
-#include "answers/layers/check_sizes.hpp"
-#include "answers/step_codes.hpp"
+#include "answers/checking/steps_check.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -20,22 +16,23 @@ namespace coordreq {
 namespace {
 
 /// Each agent by itself: the actions that `then` leaves do not depend on classes.
-std::vector<std::vector<std::int32_t>> single_agents(const ProblemSpec& spec) {
-  std::vector<std::vector<std::int32_t>> agents;
-  for (std::size_t i = 0; i < spec.agents.size(); ++i) agents.push_back({static_cast<std::int32_t>(i)});
-  return agents;
+ClassChoices choices_of_then(const CheckContext& context) {
+  ClassChoices::Partition agents;
+  for (std::size_t i = 0; i < context.spec->agents.size(); ++i)
+    agents.push_back({static_cast<std::int32_t>(i)});
+  return {context, agents, ClassChoices::Rules::then};
 }
 
 /// Data of one partition that all threads share.
 struct PartitionOfSilence {
+  static constexpr const CountdownKind& kKind = kSilenceKind;
+
   PartitionOfSilence(const CheckContext& context, std::size_t p)
-      : claims(*context.spec, *context.claims, p, silence_layers_meant()),
-        silence("silence " + claims.partition.name) {
-    if (claims.fixed_point_index < 0) most = context.spec->coordination.max_delay;
-  }
+      : claims(*context.spec, *context.claims, p, kKind), silence("silence " + claims.partition.name) {}
+
+  [[nodiscard]] std::vector<Finding> findings() const { return {silence.finding()}; }
 
   PartitionClaims claims;
-  std::optional<std::int64_t> most;  ///< max_delay, if it has stopped the iteration
   Tally silence;
 };
 
@@ -52,9 +49,10 @@ struct SetOfSilence {
 };
 
 /// Whether all actions of `then` keep a cell in a set, or the task ends in the cell. @param set [cell] 0 or 1
-bool stays(CheckedCell& cell, RuledChoices& then, const std::vector<std::uint8_t>& set) {
+bool stays(CheckedCell& cell, ClassChoices& then, const std::vector<std::uint8_t>& set) {
   if (cell.is_over()) return true;
-  const std::vector<std::int64_t> choices = then.of(cell.number(), cell.admitted());
+  then.go_to(cell.number(), cell.admitted());
+  const std::vector<std::int64_t> choices = then.joint();
   return !choices.empty() && std::ranges::all_of(choices, [&](std::int64_t u) {
     return !cell.is_forbidden(u) && cell.least(u, set, 0) > 0;
   });
@@ -64,10 +62,9 @@ class SilenceChecker : public CellChecker {
  public:
   SilenceChecker(const CheckContext& context, SetOfSilence& set, std::deque<PartitionOfSilence>& partitions)
       : context_(context), set_(set), partitions_(partitions) {
-    const SilenceSpec& silence = *context.spec->silence;
     for (const PartitionOfSilence& partition : partitions)
-      actions_.emplace_back(context, silence.actions, "actions", partition.claims.partition.classes);
-    if (silence.has_then()) then_.emplace(context, silence.then, "then", single_agents(*context.spec));
+      actions_.emplace_back(context, partition.claims.partition.classes, ClassChoices::Rules::actions);
+    if (set.has_then) then_.emplace(choices_of_then(context));
   }
 
   void check(CheckedCell& cell) override {
@@ -76,9 +73,13 @@ class SilenceChecker : public CellChecker {
     if (then_) check_member(cell, is_member);
     for (std::size_t p = 0; p < partitions_.size(); ++p) {
       PartitionOfSilence& partition = partitions_[p];
-      std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
-      if (is_member) expected = silence_by_definition(cell, partition, actions_[p]);
-      compare(partition.silence, cell, partition.claims.delay[cell.at()], expected);
+      const PartitionClaims& claims = partition.claims;
+      std::int32_t expected = steps_outside(cell);
+      if (is_member) {
+        actions_[p].go_to(cell.number(), cell.admitted());
+        expected = steps_by_definition(cell, actions_[p], claims.delay, claims.most);
+      }
+      compare_steps(context_, partition.silence, cell, claims.delay[cell.at()], expected);
     }
   }
 
@@ -91,50 +92,19 @@ class SilenceChecker : public CellChecker {
                          [&] { return cell.place() + ": the fallback rule does not keep it there"; });
   }
 
-  [[nodiscard]] static std::int32_t silence_by_definition(CheckedCell& cell,
-                                                          const PartitionOfSilence& partition,
-                                                          RuledChoices& actions) {
-    std::int32_t worst = kUnbounded;
-    const bool is_over = cell.is_over();
-    const auto choices = is_over ? std::vector<std::int64_t>() : actions.of(cell.number(), cell.admitted());
-    for (const std::int64_t u : choices) {
-      const std::int32_t least =
-          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, partition.claims.delay, kOutsideInvariant);
-      worst = std::min(worst, std::max(least, kOutsideInvariant));
-      if (worst == kOutsideInvariant) break;
-    }
-    const std::int32_t silence = choices.empty() && !is_over ? 0 : one_more(worst);
-    return partition.most ? std::min(silence, static_cast<std::int32_t>(*partition.most)) : silence;
-  }
-
-  void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
-    tally.add_checked(1);
-    if (claimed == expected) return;
-    if (context_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
-    add_wrong_steps(tally, cell, claimed, expected);
-  }
-
   const CheckContext& context_;
   SetOfSilence& set_;
   std::deque<PartitionOfSilence>& partitions_;
-  std::deque<RuledChoices> actions_;  ///< [partition]
-  std::optional<RuledChoices> then_;
+  std::deque<ClassChoices> actions_;  ///< [partition]
+  std::optional<ClassChoices> then_;
 };
 
-class SilenceCheck : public AnswerCheck {
+class SilenceCheck : public StepsCheck<PartitionOfSilence> {
  public:
-  explicit SilenceCheck(const CheckContext& context)
-      : AnswerCheck(CheckSection::steps), context_(context), set_(context) {
-    for (std::size_t p = 0; p < context.spec->coordination.partitions.size(); ++p)
-      partitions_.emplace_back(context, p);
-  }
+  explicit SilenceCheck(const CheckContext& context) : StepsCheck(context), set_(context) {}
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
-    std::vector<Finding> findings;
-    std::size_t longest = 1;
-    for (const PartitionOfSilence& partition : partitions_)
-      findings.push_back(compare_layers(*context_.spec, *context_.claims, partition.claims, longest));
-    sizes.expect("length of /silence_layer", partitions_.front().claims.layer_sizes.size(), longest);
+    std::vector<Finding> findings = StepsCheck::compare_sizes(sizes);
     if (set_.has_then) {
       const std::vector<std::uint64_t>& cells = context_.claims->at("/silence_set").cells;
       sizes.expect("cells of /silence_set", cells.empty() ? UINT64_MAX : cells.front(),
@@ -151,7 +121,7 @@ class SilenceCheck : public AnswerCheck {
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
     if (set_.has_then) result.push_back(set_.tally.finding());
-    for (const PartitionOfSilence& partition : partitions_) result.push_back(partition.silence.finding());
+    std::ranges::move(StepsCheck::findings(), std::back_inserter(result));
     return result;
   }
 
@@ -190,7 +160,7 @@ class SilenceCheck : public AnswerCheck {
     std::mutex mutex;
     team.for_each(std::ssize(cells), 512, [&](ThreadTeam::Range range, int) {
       CheckedCell cell(context_);
-      RuledChoices then(context_, context_.spec->silence->then, "then", single_agents(*context_.spec));
+      ClassChoices then = choices_of_then(context_);
       std::vector<std::int64_t> found;
       for (std::int64_t i = range.begin; i < range.end; ++i) {
         cell.go_to(cells[at(i)]);
@@ -202,9 +172,7 @@ class SilenceCheck : public AnswerCheck {
     return result;
   }
 
-  const CheckContext& context_;
   SetOfSilence set_;
-  std::deque<PartitionOfSilence> partitions_;
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "answers/one_cell/silent_inputs.hpp"
+#include "answers/checking/class_choices.hpp"
 #include "answers/paths.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -11,23 +11,25 @@ namespace {
 
 class SilencePolicy : public CellPolicy {
  public:
-  SilencePolicy(const PolicyContext& context, SilentInputs::Part part)
-      : inputs_(*context.spec, part, context.partition->classes, *context.posts) {}
+  SilencePolicy(const PolicyContext& context, ClassChoices::Rules rules)
+      : choices_(*context.spec, context.posts->grid(), context.posts->inputs(), context.partition->classes,
+                 rules) {}
 
   bool holds(std::int64_t /*cell*/) override { return true; }
   const Numbers& together(std::int64_t /*cell*/, const Numbers& admissible) override { return admissible; }
   std::vector<Numbers> alone(std::int64_t cell, std::int32_t /*countdown*/, const Numbers& together,
                              const std::vector<InputClass>& /*classes*/) override {
-    return inputs_.of(cell, together);
+    choices_.go_to(cell, together);
+    return choices_.numbers();
   }
 
  private:
-  SilentInputs inputs_;
+  ClassChoices choices_;
 };
 
-template <SilentInputs::Part part>
+template <ClassChoices::Rules rules>
 std::unique_ptr<CellPolicy> make_policy(const PolicyContext& context) {
-  return std::make_unique<SilencePolicy>(context, part);
+  return std::make_unique<SilencePolicy>(context, rules);
 }
 
 }  // namespace
@@ -43,8 +45,8 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
            .delay = paths::kSilence,
            .is_on_request = true,
            .is_anywhere = true,
-           .make = make_policy<SilentInputs::Part::actions>,
-           .make_then = spec.silence->has_then() ? make_policy<SilentInputs::Part::then> : nullptr,
+           .make = make_policy<ClassChoices::Rules::actions>,
+           .make_then = spec.silence->has_then() ? make_policy<ClassChoices::Rules::then> : nullptr,
            .header = {.where = "under the communication-loss rule",
                       .purpose = "Agents that follow the communication-loss rule during silence.",
                       .countdown = "Steps of silence that are safe, or one of the numbers above.",
