@@ -193,7 +193,7 @@ std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
     return "\nThe invariance set is empty on this grid: no state can be kept safe, even if all agents always "
            "coordinate.\n";
   }
-  if (!tells_partitions_in_full(summary)) return partitions_table(summary, headline_policies(spec).front());
+  if (!has_partitions_in_full(summary)) return partitions_table(summary, headline_policies(spec).front());
   std::string text;
   for (const Json& partition : summary["partitions"]) text += partition_text(partition, summary, spec);
   return text;
@@ -212,12 +212,12 @@ std::string summary_text(const Json& summary, const ProblemSpec& spec) {
   std::string text = sizes(summary, spec) + sets_text(summary, spec) + partitions_text(summary, spec);
   for (const AnalysisSection section : analysis_sections()) text += section(summary, spec);
   std::vector<std::string> told = {"controller", "seconds", "work", "tightness", "warnings"};
-  told.insert(told.end(), told_members().begin(), told_members().end());
+  told.insert(told.end(), known_members().begin(), known_members().end());
   return text + others_text(summary, told) + requirements_text(summary["requirements"], spec) +
          closing_text(summary);
 }
 
-bool tells_partitions_in_full(const Json& summary) {
+bool has_partitions_in_full(const Json& summary) {
   return summary["safe"] != 0 && summary["invariant"] != 0 &&
          summary["partitions"].size() <= kMostPartitionsInFull;
 }

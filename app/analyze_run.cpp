@@ -46,7 +46,7 @@ class InterruptPolicy {
 };
 
 /// Before work that will take hours it says so. What is known of that decides nothing.
-void tell_of_hours(const Model& model, ThreadTeam& team) {
+void report_hours(const Model& model, ThreadTeam& team) {
   constexpr double kHour = 3600;
   if (!may_take_hours(model)) return;
   const std::optional<double> seconds = estimate_seconds(model, team);
@@ -77,7 +77,7 @@ std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const
   ThreadTeam team(is_alone
                       ? threads_within(model, asked.memory(), asked.threads, asked.checkpoint.has_value())
                       : asked.threads);
-  if (is_alone && !asked.quiet) tell_of_hours(model, team);
+  if (is_alone && !asked.quiet) report_hours(model, team);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;

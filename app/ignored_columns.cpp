@@ -8,9 +8,9 @@
 
 namespace coordreq {
 
-void IgnoredColumns::tell(const std::vector<std::string>& names, const std::string& hint) {
-  if (is_told_ || names.empty()) return;
-  is_told_ = true;
+void IgnoredColumns::warn(const std::vector<std::string>& names, const std::string& hint) {
+  if (is_reported_ || names.empty()) return;
+  is_reported_ = true;
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + quote_text(name);
   write_diagnostics(fmt::format("coordreq: warning: {} is called {}: ignored{} ({})\n", what_, list, hint,

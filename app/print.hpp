@@ -37,13 +37,13 @@ class IgnoredColumns {
  public:
   /// @param what is not called so: "no state" @param source where they stand
   IgnoredColumns(bool is_quiet, std::string what, std::string source = "standard input")
-      : is_told_(is_quiet), what_(std::move(what)), source_(std::move(source)) {}
+      : is_reported_(is_quiet), what_(std::move(what)), source_(std::move(source)) {}
 
   /// @param hint what follows "ignored"
-  void tell(const std::vector<std::string>& names, const std::string& hint);
+  void warn(const std::vector<std::string>& names, const std::string& hint);
 
  private:
-  bool is_told_;
+  bool is_reported_;
   std::string what_;
   std::string source_;
 };

@@ -27,7 +27,7 @@ namespace coordreq {
 /// Up to so many partitions are told in full; more get one line each of a table.
 inline constexpr std::size_t kMostPartitionsInFull = 3;
 /// They are not in a table, and there is something to say of them.
-[[nodiscard]] bool tells_partitions_in_full(const Json& summary);
+[[nodiscard]] bool has_partitions_in_full(const Json& summary);
 
 /// Figures of a partition in tables: F, |Z_F|, and the largest delay of the cells that have a finite one,
 /// which is empty if none has.

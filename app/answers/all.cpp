@@ -40,7 +40,7 @@ const RunFigures& run_figures() {
   return all;
 }
 
-const std::vector<std::string>& told_members() {
+const std::vector<std::string>& known_members() {
   static const std::vector<std::string> all = {"goal",         "coalition", "network", "convention",
                                                "requirements", "modes",     "risk"};
   return all;

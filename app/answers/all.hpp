@@ -37,7 +37,7 @@ using RunFigures = std::vector<RunFigure>;
 [[nodiscard]] const RunFigures& run_figures();
 
 /// Members of both documents that these tell of.
-[[nodiscard]] const std::vector<std::string>& told_members();
+[[nodiscard]] const std::vector<std::string>& known_members();
 
 // The texts of each answer, in a file of its own:
 void add_goal_of_analysis(const Json& summary, Facts& facts);

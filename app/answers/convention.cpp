@@ -20,7 +20,7 @@ std::string cells_of_half(const Json& entry) {
 }  // namespace
 
 std::string convention_of_analysis(const Json& summary, const ProblemSpec& /*spec*/) {
-  if (!summary.contains("convention") || !tells_partitions_in_full(summary)) return "";
+  if (!summary.contains("convention") || !has_partitions_in_full(summary)) return "";
   return fmt::format(
       "\nconvention\n{}  Agents that keep to it never need to coordinate inside the invariance set.\n",
       table_text(

@@ -31,7 +31,7 @@ std::string manner_of(const NetworkSpec& network) {
 }  // namespace
 
 std::string network_of_analysis(const Json& summary, const ProblemSpec& spec) {
-  if (!spec.network || !tells_partitions_in_full(summary)) return "";
+  if (!spec.network || !has_partitions_in_full(summary)) return "";
   const Json& entry = summary["network"];
   const std::string manner = manner_of(*spec.network);
   const Json& modes = entry["modes"];

@@ -58,7 +58,7 @@ const char* coordinated_text(const ProblemSpec& spec) {
 }  // namespace
 
 std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
-  if (!spec.risk || !tells_partitions_in_full(summary)) return "";
+  if (!spec.risk || !has_partitions_in_full(summary)) return "";
   const Json& entry = summary["risk"];
   const Json& modes = entry["modes"];
   std::vector<std::string> heads = {"  mode", "worst", "mean"};

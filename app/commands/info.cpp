@@ -76,7 +76,7 @@ std::string info_text(const Json& info, const ProblemSpec& spec) {
   std::string text = head_text(info, spec) + answers_text(info, headline_policies(spec)) + "\n" +
                      axes_text(info) + "\n" + described_partitions(info["partitions"]);
   for (const InfoSection section : info_sections()) text += section(info);
-  std::vector<std::string> told = told_members();
+  std::vector<std::string> told = known_members();
   told.emplace_back("spec");
   text += others_text(info, told);
   text += "\ndatasets\n";

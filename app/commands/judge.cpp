@@ -60,12 +60,12 @@ ExitCode run(const JudgeOptions& options) {
   LogSource source(options.log);
   LogReader log(source.stream(), results.spec(), source.name());
   IgnoredColumns ignored(options.quiet, "no state or input", source.name());
-  ignored.tell(log.unknown_names(), "");
+  ignored.warn(log.unknown_names(), "");
   LogJudge judge(results, partition, log, team);
   JudgeSummary summary(results, partition);
   if (options.csv) write_output(judged_csv_header(results, partition));
   while (const std::optional<JudgedRow> row = judge.next()) {
-    ignored.tell(log.unknown_names(), "");
+    ignored.warn(log.unknown_names(), "");
     summary.add(*row);
     if (options.csv) write_output(judged_csv_line(*row));
   }

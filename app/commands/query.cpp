@@ -42,11 +42,11 @@ void answer_standard_input(const QueryOptions& options, const ResultsReader& res
   const bool json = options.json || states.format() == StateReader::Format::json_lines;
   IgnoredColumns ignored(options.quiet || options.extra, "no state");
   constexpr const char* kHint = "; --extra passes it through";
-  ignored.tell(states.extra_names(), kHint);
+  ignored.warn(states.extra_names(), kHint);
   if (!json)
     write_output(answer_csv_header(form, options.extra ? states.extra_names() : std::vector<std::string>()));
   while (std::optional<std::vector<Rational>> state = states.next()) {
-    ignored.tell(states.extra_names(), kHint);
+    ignored.warn(states.extra_names(), kHint);
     const StateAnswer answer = query.at(std::move(*state));
     write_output(json ? answer_json_line(answer, form, options.extra ? &states.extra() : nullptr)
                       : answer_csv_line(answer, form, options.extra ? states.extra() : Extras()));
@@ -76,7 +76,7 @@ ExitCode answer_least(const QueryOptions& options, const ResultsReader& results)
   }
   const LeastSteps found =
       least_steps(results, field, partition, std::cin, "standard input", at_least,
-                  [&ignored](const std::vector<std::string>& names) { ignored.tell(names, ""); });
+                  [&ignored](const std::vector<std::string>& names) { ignored.warn(names, ""); });
   print_answer(options, least_json(found, field, partition, at_least, results),
                [&](const Json& json) { return least_text(json, field); });
   return found.below.value_or(0) > 0 ? ExitCode::requirement_failed : ExitCode::success;

@@ -21,24 +21,24 @@ FillArray counting(FillArray fill, std::uint64_t size, std::atomic<std::uint64_t
 }  // namespace
 
 StageReporter::StageReporter(std::function<void(const Progress&)> tell, ThreadTeam& team)
-    : tell_(std::move(tell)), team_(team) {
-  if (!tell_) return;
+    : report_(std::move(tell)), team_(team) {
+  if (!report_) return;
   team_.set_watch([this](std::int64_t done, std::int64_t count) { on_loop(done, count); });
 }
 
 StageReporter::~StageReporter() {
-  if (tell_) team_.set_watch({});
+  if (report_) team_.set_watch({});
 }
 
 void StageReporter::enter(const std::string& stage) {
   timer_.begin(stage);
   progress_ = {.stage = stage, .has_temporary = progress_.has_temporary};
-  tell_now();
+  report_now();
 }
 
 void StageReporter::enter_part(const std::string& part) {
   progress_ = {.stage = progress_.stage, .part = part, .has_temporary = progress_.has_temporary};
-  tell_now();
+  report_now();
 }
 
 void StageReporter::step(const WaveStep& step, std::int64_t row_length) {
@@ -48,13 +48,13 @@ void StageReporter::step(const WaveStep& step, std::int64_t row_length) {
   progress_.cells_left = step.rows_left * row_length;
   progress_.cells = step.rows * row_length;
   progress_.done = progress_.all = 0;
-  tell_if_due();
+  report_if_due();
 }
 
 void StageReporter::set_temporary(bool has_temporary) {
   const bool is_news = progress_.has_temporary != has_temporary;
   progress_.has_temporary = has_temporary;
-  is_news ? tell_now() : tell_if_due();
+  is_news ? report_now() : report_if_due();
 }
 
 /// Loops within a sweep say nothing that its steps do not, but time passes in them.
@@ -66,7 +66,7 @@ void StageReporter::on_loop(std::int64_t done, std::int64_t count) {
     progress_.done = done;
     progress_.all = count;
   }
-  tell_if_due();
+  report_if_due();
 }
 
 void StageReporter::watch_writing(const ProblemSpec& spec, FieldValues& values) {
@@ -91,13 +91,13 @@ const std::vector<std::pair<std::string, double>>& StageReporter::finish() {
   return timer_.seconds();
 }
 
-void StageReporter::tell_now() {
+void StageReporter::report_now() {
   next_ = Clock::now() + kPause;
-  if (tell_) tell_(progress_);
+  if (report_) report_(progress_);
 }
 
-void StageReporter::tell_if_due() {
-  if (tell_ && Clock::now() >= next_) tell_now();
+void StageReporter::report_if_due() {
+  if (report_ && Clock::now() >= next_) report_now();
 }
 
 }  // namespace coordreq

@@ -41,10 +41,10 @@ class StageReporter {
  private:
   using Clock = std::chrono::steady_clock;
   void on_loop(std::int64_t done, std::int64_t count);
-  void tell_now();
-  void tell_if_due();
+  void report_now();
+  void report_if_due();
 
-  std::function<void(const Progress&)> tell_;
+  std::function<void(const Progress&)> report_;
   ThreadTeam& team_;
   StageTimer timer_;
   Progress progress_;

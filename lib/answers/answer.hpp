@@ -40,7 +40,7 @@ struct Answer {
   void (*examine)(const ProblemSpec& spec, const FieldSource& source) = nullptr;
   /// Adds its keys to the JSON of `info`: those of the summary, as far as the file has them. Called whether
   /// or not the spec asks for the answer; null: none.
-  void (*tell)(const ProblemSpec& spec, const FieldSource& source, Json& info) = nullptr;
+  void (*describe)(const ProblemSpec& spec, const FieldSource& source, Json& info) = nullptr;
   /// Its warnings; null: none. Called whether or not the spec asks for the answer.
   Warnings (*advise)(const Answers& answers) = nullptr;
   /// Its policies: the choices that it leaves to agents at a cell and a countdown; null: none.

@@ -119,7 +119,7 @@ std::string outcome_of(const std::function<void()>& read) {
 }
 
 /// @param signal that ended the child before it could say anything, 0 if none did
-[[noreturn]] void tell_of_silence(int signal, const std::string& path) {
+[[noreturn]] void fail_without_outcome(int signal, const std::string& path) {
   if (signal == SIGKILL) throw std::bad_alloc();  // so the system ends who takes too much
   if (signal != SIGXCPU) {
     if (is_short_of_memory())
@@ -133,7 +133,7 @@ std::string outcome_of(const std::function<void()>& read) {
 }
 
 [[noreturn]] void rethrow(const std::string& outcome, int status, const std::string& path) {
-  if (outcome.empty()) tell_of_silence(WIFSIGNALED(status) ? WTERMSIG(status) : 0, path);
+  if (outcome.empty()) fail_without_outcome(WIFSIGNALED(status) ? WTERMSIG(status) : 0, path);
   const auto code = static_cast<ExitCode>(outcome.front());
   const std::string text = outcome.substr(1);
   if (code == ExitCode::limit && text.empty()) throw std::bad_alloc();

@@ -104,7 +104,7 @@ Json read_info(const ResultsReader& results) {
   add_header(results, info);
   add_axes(results, info);
   for (const Answer& answer : all_answers()) {
-    if (answer.tell != nullptr) answer.tell(results.spec(), results, info);
+    if (answer.describe != nullptr) answer.describe(results.spec(), results, info);
   }
   add_best_states(results, info);
   info["datasets"] = results.datasets();

@@ -10,7 +10,8 @@
 namespace coordreq {
 
 /// "500ms", "10 min", "1.5 h": a decimal and a unit of time, with or without a blank between, in another unit
-/// of time, exactly: time_in("500ms", "s") is 1/2. Units are those that udunits_spelling() knows, words or symbols.
+/// of time, exactly: time_in("500ms", "s") is 1/2. Units are those that udunits_spelling() knows, words or
+/// symbols.
 /// @returns nothing if the text is no such time, or `unit` no unit of time
 [[nodiscard]] std::optional<Rational> time_in(std::string_view text, std::string_view unit);
 

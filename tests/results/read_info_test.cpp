@@ -23,11 +23,7 @@ using sample::write_bytes;
 
 class ReadInfo : public testing::Test {
  protected:
-  void write_sample(const sample::Options& options = {}) {
-    ThreadTeam team(2);
-    const sample::Sample content = sample::make_sample(options);
-    write_results(path_, content.spec, content.values, team);
-  }
+  void write_sample(const sample::Options& options = {}) { sample::write_sample(path_, options); }
 
   /// Changes the file behind the back of the program.
   void damage(const std::function<void(const Handle& file)>& change) {

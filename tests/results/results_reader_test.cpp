@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "answers/field_table.hpp"
@@ -28,9 +29,7 @@ using sample::write_bytes;
 class Reader : public testing::Test {
  protected:
   void write(const sample::Options& options = {.points = sample::kFewPoints}) {
-    ThreadTeam team(1);
-    const sample::Sample content = sample::make_sample(options);
-    write_results(path_, content.spec, content.values, team);
+    sample::write_sample(path_, options);
   }
 
   /// Changes the file behind the back of the program.
@@ -271,15 +270,20 @@ TEST_F(Reader, AnAttributeThatIsNoFiniteNumberIsRefused) {
 }
 
 TEST_F(Reader, EveryFieldThatTheSpecAsksForMustBeThere) {
-  const sample::Sample content = sample::make_sample({.points = sample::kFewPoints, .with_everything = true});
-  for (const Field& field : result_fields(content.spec)) {
-    if (field.scale && (field.scale->is_optional || field.path.ends_with("state_name"))) continue;
-    write({.points = sample::kFewPoints, .with_everything = true});
-    if (!ResultsReader(path_).has(field.path)) continue;  // over an axis that is not there
-    damage([&](const Handle& file) {
-      hdf5::check(H5Ldelete(file.get(), field.path.c_str(), H5P_DEFAULT), "delete");
-    });
-    EXPECT_EQ(defect(), "missing or damaged (FILE:" + field.path + ")");
+  const sample::Options options{.points = sample::kFewPoints, .with_everything = true};
+  write(options);
+  std::vector<std::string> paths;
+  auto whole = std::make_optional<ResultsReader>(path_);
+  for (const Field& field : result_fields(sample::make_sample(options).spec)) {
+    const bool may_miss = field.scale && (field.scale->is_optional || field.path.ends_with("state_name"));
+    if (!may_miss && whole->has(field.path)) paths.push_back(field.path);
+  }
+  whole.reset();  // HDF5 lets nobody change a file that is being read
+  for (const std::string& path : paths) {
+    write(options);
+    damage(
+        [&](const Handle& file) { hdf5::check(H5Ldelete(file.get(), path.c_str(), H5P_DEFAULT), "delete"); });
+    EXPECT_EQ(defect(), "missing or damaged (FILE:" + path + ")");
   }
 }
 
@@ -354,7 +358,7 @@ TEST_F(Reader, FlippedBitsAreErrorsOrGoUnnoticedButCrashNothing) {
   const std::string whole = bytes_of(path_);
   std::mt19937_64 random(20180410);  // NOLINT: the same flips each time
   int errors = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 50; ++i) {
     std::string bytes = whole;
     char& byte = bytes[random() % bytes.size()];
     byte = static_cast<char>(byte ^ 1 << random() % 8);

@@ -2,9 +2,13 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 #include "answers/field_table.hpp"
+#include "results/scratch_folder.hpp"
+#include "results/write_results.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq::sample {
@@ -213,6 +217,19 @@ Sample make_sample(const Options& options) {
     add_found(field, options, entry);
   }
   return sample;
+}
+
+void write_sample(const std::string& path, const Options& options) {
+  using Key = std::tuple<std::vector<std::uint64_t>, ElementType, bool, bool, bool>;
+  static std::map<Key, std::string> written;
+  const Key key(options.points, options.steps, options.truncated, options.with_extras,
+                options.with_everything);
+  const auto known = written.find(key);
+  if (known != written.end()) return write_bytes(path, known->second);
+  ThreadTeam team(2);
+  const Sample content = make_sample(options);
+  write_results(path, content.spec, content.values, team);
+  written.emplace(key, bytes_of(path));
 }
 
 }  // namespace coordreq::sample

@@ -43,5 +43,7 @@ inline constexpr std::int64_t kConnectionDelay = 2;
 [[nodiscard]] std::uint64_t count_cells(const Options& options, bool (*is_member)(std::uint64_t cell));
 [[nodiscard]] std::string spec_text(const Options& options);
 [[nodiscard]] Sample make_sample(const Options& options = {});
+/// Writes its results file; the same options once in this process, and then a copy of its bytes.
+void write_sample(const std::string& path, const Options& options);
 
 }  // namespace coordreq::sample

@@ -203,8 +203,8 @@ void summarise_blind(const Answers& answers, Json& summary, Json& work) {
   }
 }
 
-void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info) {
-  if (has_limited_sight(spec)) tell_layers_of(spec, source, kBlindKind, info);
+void describe_blind(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  if (has_limited_sight(spec)) describe_layers(spec, source, kBlindKind, info);
 }
 
 /// Warns that other answers are about agents who see everything.
@@ -261,7 +261,7 @@ const Answer blind_answer = {.stages = blind_stages,
                              .fields = blind_fields,
                              .fill = fill_blind_fields,
                              .summarise = summarise_blind,
-                             .tell = tell_blind,
+                             .describe = describe_blind,
                              .advise = advise_on_blind,
                              .policies = blind_policies,
                              .explain = explain_blind,

@@ -53,7 +53,7 @@ void summarise_coalition(const Answers& answers, Json& summary, Json& /*work*/) 
   summary["coalition"] = map == nullptr ? Json() : coalition_json(*map, answers.context.spec);
 }
 
-void tell_coalition(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+void describe_coalition(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   Json& json = info["coalition"] = Json();
   if (!spec.coordination.horizon) return;
   const std::vector<std::uint64_t> given = source.counted(paths::kCoalition);
@@ -92,7 +92,7 @@ const Answer coalition_answer = {.stages = coalition_stages,
                                  .fields = coalition_fields,
                                  .fill = fill_coalition_fields,
                                  .summarise = summarise_coalition,
-                                 .tell = tell_coalition,
+                                 .describe = describe_coalition,
                                  .check = check_coalition};
 
 }  // namespace coordreq

@@ -115,8 +115,8 @@ Json layers_json(const AnalysisContext& context, const DelayLayers& layers) {
           {"best_state", best_state_json(context, layers)}};
 }
 
-void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const CountdownKind& kind,
-                    Json& info) {
+void describe_layers(const ProblemSpec& spec, const FieldSource& source, const CountdownKind& kind,
+                     Json& info) {
   const std::vector<StoredPartition> partitions = read_partition_values(spec, source, kind.prefix());
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const StoredPartition& stored = partitions[p];

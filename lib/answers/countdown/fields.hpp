@@ -44,7 +44,7 @@ void fill_steps(const Answers& answers, const LayersOfPartitions& partitions, co
 [[nodiscard]] Json layers_json(const AnalysisContext& context, const DelayLayers& layers);
 /// Adds the same members of the layers in a file, for all partitions.
 /// @throws ResultsError if an F is no layer
-void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const CountdownKind& kind,
-                    Json& info);
+void describe_layers(const ProblemSpec& spec, const FieldSource& source, const CountdownKind& kind,
+                     Json& info);
 
 }  // namespace coordreq

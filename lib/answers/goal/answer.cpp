@@ -123,7 +123,7 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   }
 }
 
-void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+void describe_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.goal) return;
   const std::int64_t longest = source.attribute("/arrival", "longest_arrival");
   info["goal"] = {{"cells", source.attribute("/arrival", "goal_cells")},
@@ -222,7 +222,7 @@ const Answer goal_answer = {.stages = goal_stages,
                             .fields = goal_fields,
                             .fill = fill_goal_fields,
                             .summarise = summarise_goal,
-                            .tell = tell_goal,
+                            .describe = describe_goal,
                             .advise = advise_on_goal,
                             .policies = goal_policies,
                             .check = check_goal};

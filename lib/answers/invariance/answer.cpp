@@ -49,7 +49,7 @@ void summarise_invariance(const Answers& answers, Json& summary, Json& work) {
   work["invariance"] = work_json(invariance.counts);
 }
 
-void tell_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Json& info) {
+void describe_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Json& info) {
   info["safe"] = source.counted("/safe").front();
   info["invariant"] = source.counted("/invariant").front();
 }
@@ -78,7 +78,7 @@ const Answer invariance_answer = {.stages = invariance_stages,
                                   .fields = invariance_fields,
                                   .fill = fill_invariance_fields,
                                   .summarise = summarise_invariance,
-                                  .tell = tell_invariance,
+                                  .describe = describe_invariance,
                                   .check = check_invariance};
 
 }  // namespace coordreq

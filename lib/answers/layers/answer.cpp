@@ -154,13 +154,13 @@ void examine_layers(const ProblemSpec& spec, const FieldSource& source) {
   }
 }
 
-void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+void describe_layers(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["partitions"] = Json::array();
   for (const StoredPartition& partition : read_partition_values(spec, source)) {
     Json entry = {{"name", partition.name}, {"classes", partition.classes}};
     info["partitions"].push_back(std::move(entry));
   }
-  tell_layers_of(spec, source, kDelayKind, info);
+  describe_layers(spec, source, kDelayKind, info);
 }
 
 /// Levels of all partitions are kept; projections are those of one partition at a time.
@@ -221,7 +221,7 @@ const Answer layers_answer = {.stages = layers_stages,
                               .fill = fill_layer_fields,
                               .summarise = summarise_layers,
                               .examine = examine_layers,
-                              .tell = tell_layers,
+                              .describe = describe_layers,
                               .policies = layer_policies,
                               .check = check_layers};
 

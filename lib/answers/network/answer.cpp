@@ -105,7 +105,7 @@ void examine_network(const ProblemSpec& spec, const FieldSource& source) {
     source.fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
 }
 
-void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+void describe_network(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.network) return;
   const std::vector<std::uint64_t> cells = source.counted(paths::kNetworkSafe);
   for (std::size_t mode = 0; mode < cells.size(); ++mode)
@@ -147,7 +147,7 @@ const Answer network_answer = {.stages = network_stages,
                                .fill = fill_network_fields,
                                .summarise = summarise_network,
                                .examine = examine_network,
-                               .tell = tell_network,
+                               .describe = describe_network,
                                .advise = advise_on_network,
                                .check = check_network,
                                .check_memory = network_check_memory};

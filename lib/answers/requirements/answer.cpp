@@ -141,7 +141,7 @@ void examine_requirements(const ProblemSpec& spec, const FieldSource& source) {
   static_cast<void>(read_requirement_values(spec, source));
 }
 
-void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+void describe_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["requirements"] = Json::array();
   const std::vector<ResultRequirement> results = read_requirement_values(spec, source);
   for (std::size_t r = 0; r < results.size(); ++r) {
@@ -246,7 +246,7 @@ const Answer requirements_answer = {.checks = requirements_checks,
                                     .fill = fill_requirement_fields,
                                     .summarise = summarise_requirements,
                                     .examine = examine_requirements,
-                                    .tell = tell_requirements,
+                                    .describe = describe_requirements,
                                     .check = check_requirements,
                                     .check_memory = requirements_check_memory};
 

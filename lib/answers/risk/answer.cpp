@@ -152,7 +152,7 @@ void examine_risk(const ProblemSpec& spec, const FieldSource& source) {
   if (!(rate >= 0 && rate <= 1)) source.fail("the rate is no probability", paths::kRisk);
 }
 
-void tell_risk(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+void describe_risk(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.risk) return;
   info["risk"] = {{"horizon", source.attribute(paths::kRisk, "horizon")},
                   {"rate", source.number(paths::kRisk, "rate")}};
@@ -190,7 +190,7 @@ const Answer risk_answer = {.stages = risk_stages,
                             .fill = fill_risk_fields,
                             .summarise = summarise_risk,
                             .examine = examine_risk,
-                            .tell = tell_risk,
+                            .describe = describe_risk,
                             .check = check_risk,
                             .check_memory = risk_check_memory};
 

@@ -129,10 +129,10 @@ void summarise_silence(const Answers& answers, Json& summary, Json& work) {
 }
 
 /// Fails if an F is no layer.
-void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+void describe_silence(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.silence) return;
   if (spec.silence->has_then()) info["silence_set"] = source.counted(paths::kSilenceSet).front();
-  tell_layers_of(spec, source, kSilenceKind, info);
+  describe_layers(spec, source, kSilenceKind, info);
 }
 
 /// Warns of cells in which silent agents have no action.
@@ -200,7 +200,7 @@ const Answer silence_answer = {.stages = silence_stages,
                                .fields = silence_fields,
                                .fill = fill_silence_fields,
                                .summarise = summarise_silence,
-                               .tell = tell_silence,
+                               .describe = describe_silence,
                                .advise = advise_on_silence,
                                .policies = silence_policies,
                                .check = check_silence,
