@@ -31,7 +31,7 @@ struct CoarseCopy {
 [[nodiscard]] std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t partition,
                                                     std::int64_t most_cells, double most_entries);
 
-/// `work()`; nothing if the problem that it changes cannot be worked out, as with a state off its new grid,
+/// `work()`; nothing if the problem that it changes cannot be computed, as with a state off its new grid,
 /// or for want of memory.
 template <class Work>
 auto if_possible(const Work& work) -> std::optional<decltype(work())> {

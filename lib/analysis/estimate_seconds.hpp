@@ -8,7 +8,7 @@
 namespace coordreq {
 
 /// About how many seconds the analysis takes on this machine if nothing else runs, with these threads,
-/// without the writing of its file. Copies of the problem on coarser grids are worked out, each about four
+/// without the writing of its file. Copies of the problem on coarser grids are computed, each about four
 /// times as large as the one before, until one takes long enough to be measured. Where posts are enclosures,
 /// tables are taken to take as long for each box as a sample of the problem's own boxes (EnclosureSample),
 /// and boxes of copies are not divided; other tables as long for each entry as those of the last copy. All

@@ -14,7 +14,7 @@ struct Progress {
   std::string stage;
   std::string part;             ///< of the stage, as "projections" before the layers; empty: all of it
   std::int64_t sweep = 0;       ///< number of the sweep under way
-  std::int64_t visited = 0;     ///< rows that it has worked out so far
+  std::int64_t visited = 0;     ///< rows that it has computed so far
   std::int64_t layer = -1;      ///< the last one known to be final (WaveStep::layer); -1: none
   std::int64_t cells_left = 0;  ///< that this sweep has still to come to, of those that can still be lost
   std::int64_t cells = 0;       ///< all of those

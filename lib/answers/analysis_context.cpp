@@ -86,7 +86,7 @@ std::optional<RowSymmetry> AnalysisContext::symmetry(const std::vector<InputClas
   for (const std::size_t a : alike_in_classes(like_agents, classes))
     dimensions.push_back(like_agents[a].dimensions);
   if (dimensions.size() < 2) return std::nullopt;
-  // Tiles of many rows are worked out as a whole.
+  // Tiles of many rows are computed as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
   const bool is_any_in_tile =
       tiles && tiles->rows() > 1 &&

@@ -25,7 +25,7 @@ using ActionSets = std::vector<std::vector<bool>>;
 /// Bits of a file, the lowest of a byte first, as so many truth values.
 [[nodiscard]] std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t count);
 
-/// Bytes of the finite abstraction of a file, as it is read or worked out whole.
+/// Bytes of the finite abstraction of a file, as it is read or computed whole.
 [[nodiscard]] double abstraction_bytes(const ResultsReader& results);
 /// Memory of a CellController, in bytes: of all cells, or of one cell with those that its posts reach.
 [[nodiscard]] double controller_bytes(const ResultsReader& results, bool for_all_cells);

@@ -40,7 +40,8 @@ struct LoopOptions {
 /// that one's, and so is what the agents act from. If it has an aim, it is followed until that is reached;
 /// a run that begins with it is there within the steps that its start has. (On the way to a goal, contract,
 /// section 5: approach delay, P and IND_P, within arrival(start) steps.) An aim that lasts, of a goal to stay
-/// at or to return to, is followed for ever; what its policy promises of each step is looked at (section 11).
+/// at or to return to, is followed indefinitely; what its policy promises of each step is looked at (section
+/// 11).
 ///
 /// On a network that loses steps (LoopProblem::network) agents act by the mode of each step: from C if all
 /// are connected, else from IND_C of those that are. A run that leaves K is no contradiction then.

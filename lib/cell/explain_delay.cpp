@@ -207,7 +207,7 @@ class Explainer {
 MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition, std::int64_t cell) {
   constexpr double kBytesOfNumber = 1100;  // of a step of the way out, as it is found and told
   MemoryDemand demand = controller_demand(results, false);
-  // Neighbours may be so many that all posts are worked out once more.
+  // Neighbours may be so many that all posts are computed once more.
   demand.once += FileSets::bytes(results) + abstraction_bytes(results);
   const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
   for (const char* const path : {paths::kDelay, paths::kSilence}) {

@@ -14,8 +14,8 @@ namespace coordreq {
 
 /// Why a cell tolerates so much silence in a partition, and no more.
 ///
-/// Delays are those of `/delay`: steps, kUnbounded where silence may last for ever, -1 and -2 outside K and
-/// S.
+/// Delays are those of `/delay`: steps, kUnbounded where silence may last indefinitely, -1 and -2 outside K
+/// and S.
 struct DelayExplanation {
   std::int32_t delay = 0;
   bool is_lower_bound = false;  ///< `max_delay` ended the iteration before

@@ -11,7 +11,7 @@
 namespace coordreq {
 
 /// The margin of `safe` at the next states of one point under many joint inputs. Each comparison in it is
-/// worked out once for all joint inputs that lead to the same values there. Scratch inside: one object a
+/// computed once for all joint inputs that lead to the same values there. Scratch inside: one object a
 /// thread.
 class NextMargin {
  public:

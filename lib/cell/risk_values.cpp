@@ -63,7 +63,7 @@ double risk_of_runs(const ResultsReader& results, std::int64_t cell, std::int64_
 
 double bytes_of_risk_values(const ProblemSpec& spec) {
   if (!spec.risk || !spec.risk->is_safest) return 0;
-  constexpr double kArrays = 3, kWork = 3;  // levels too; and of one mode while it is worked out
+  constexpr double kArrays = 3, kWork = 3;  // levels too; and of one mode while it is computed
   return (kArrays * static_cast<double>(spec.network->modes.size()) + kWork) * sizeof(float);
 }
 

@@ -60,7 +60,7 @@ enum class Outcome : std::uint8_t {
   reached_goal,    ///< ended in the goal, as was asked or as the spec says
   late,            ///< more steps than promised, and not in the goal
   not_allowed,     ///< ended early in K where silent agents together do what `allow` forbids
-  not_followed,    ///< ended early because the next state could not be worked out
+  not_followed,    ///< ended early because the next state could not be computed
   // Outcomes of agents who follow the rules of `silence`:
   left_safe_set,  ///< ended early outside of S, later than promised
   stuck,          ///< ended early, later than promised, because they could not go on as they are told

@@ -32,7 +32,7 @@ struct ExchangeTimes {
 ///
 /// In each sweep a rank sends one message to every rank that holds rows of it, after the last batch with such
 /// rows. It takes in the message of the sweep before from every rank of which it holds rows, when it comes to
-/// the first batch that can meet them. So messages are on their way while other rows are worked out;
+/// the first batch that can meet them. So messages are on their way while other rows are computed;
 /// and the levels that a unit sees do not depend on how long messages take.
 template <class Level>
 class GhostExchange {

@@ -36,7 +36,7 @@ template <class Number>
 /// show it.
 ///
 /// Why: results that follow from posts, and from sets that the exchange keeps, are then equal in cells that
-/// differ in the order of the two alone (RowSymmetry), so that only one order is worked out. Three vehicles
+/// differ in the order of the two alone (RowSymmetry), so that only one order is computed. Three vehicles
 /// take 0.63 of their time and two thirds of the memory. The switch is FastPaths::like_agents.
 [[nodiscard]] std::optional<AbstractAgent> agent_like(const Abstraction& abstraction,
                                                       const AbstractAgent& one, const AbstractAgent& other);

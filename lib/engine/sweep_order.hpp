@@ -15,7 +15,7 @@ namespace coordreq {
 /// In ascending order of their numbers each unit would see what the units before it have just found. The
 /// front of a unit is one more than the greatest front of those among them that its posts can meet. So units
 /// of one front do not meet each other but for such as come later, and front after front each of them sees
-/// all that it would have seen in that order: as few visits, but a whole front can be worked out at once. On
+/// all that it would have seen in that order: as few visits, but a whole front can be computed at once. On
 /// three vehicles a front has 70 units in the mean where a run of neighbours that do not meet has one.
 ///
 /// Batches are fronts; small ones are joined, so that some of their units see a little less, and those that

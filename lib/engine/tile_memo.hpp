@@ -12,10 +12,10 @@
 
 namespace coordreq {
 
-/// The memo of a sweep: finds, for a tile to be worked out, a tile on which the same work is done in the
+/// The memo of a sweep: finds, for a tile to be computed, a tile on which the same work is done in the
 /// sweep.
 ///
-/// A tile is worked out at most once a sweep, so that until the sweep is over its rows are the result of that
+/// A tile is computed at most once a sweep, so that until the sweep is over its rows are the result of that
 /// work, to be copied.
 ///
 /// Threads: several may call ask() while no levels change, each with a scratch of its own; several may call
@@ -57,8 +57,8 @@ class TileMemo {
     });
   }
 
-  /// Asks about the tile that begins at `place`, to be worked out. @param turn ascends in the order in which
-  /// tiles are worked out in the sweep, so that the answer is the same for any number of threads
+  /// Asks about the tile that begins at `place`, to be computed. @param turn ascends in the order in which
+  /// tiles are computed in the sweep, so that the answer is the same for any number of threads
   /// @returns what first() takes
   [[nodiscard]] std::uint32_t ask(const RowPlace& place, std::int64_t turn, Scratch& scratch) {
     const std::int64_t tile = place.row / rows();
@@ -75,7 +75,7 @@ class TileMemo {
       if (turn < first[number].turn) first[number] = {turn, tile};
     });
   }
-  /// The tile whose rows are the result for a tile asked about; that tile itself if it has to be worked out.
+  /// The tile whose rows are the result for a tile asked about; that tile itself if it has to be computed.
   /// @pre unchecked: all tiles of the batch have been asked about
   [[nodiscard]] std::int64_t first(std::uint32_t number) const {
     return lists_->first[SharedListNumbers::shard_of(number)][SharedListNumbers::in_shard(number)].tile;

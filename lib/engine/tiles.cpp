@@ -18,7 +18,7 @@ using Kind = RowSegment::Kind;
 constexpr std::int64_t kSample = 4096;
 /// If fewer tiles than this fraction are different, looking up pays.
 constexpr double kMostDifferent = 0.5;
-/// Fewer rows are worked out sooner than compared.
+/// Fewer rows are computed sooner than compared.
 constexpr std::int64_t kFewRows = 4;
 /// Tiles that one thread takes at a time.
 constexpr std::int64_t kTilesAtOnce = 1024;

@@ -18,7 +18,7 @@ namespace coordreq {
 /// ranges within these, are equal *seen from the tiles*. Where tables and contents are equal in this sense,
 /// so are results. Numbers stand for contents: equal numbers mean equal contents, which have been compared.
 ///
-/// Why: rows that look alike are worked out, held and packed once. K of the gridworld takes 218 visits of
+/// Why: rows that look alike are computed, held and packed once. K of the gridworld takes 218 visits of
 /// rows instead of 2,587, that of the intersection 80,679 instead of 255,287, and the intersection half the
 /// memory. Where a sample finds little equal nothing is compared. Tried for networks, too: there looking for
 /// equal rows took 1.4 of the time, though 62 % were equal. The switch is FastPaths::equal_rows.

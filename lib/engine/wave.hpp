@@ -35,7 +35,7 @@ class RowOperator {
 
 /// The greatest solution of level(x) = 1 + op(level)(x) below the given levels, a level above `limit`
 /// counting as kTop. The solution is the level sequence of the synchronous iteration Z <- Z n op(Z), by
-/// Knaster and Tarski: op is monotone, so the order in which rows are worked out does not matter.
+/// Knaster and Tarski: op is monotone, so the order in which rows are computed does not matter.
 ///
 /// Rows are therefore swept in batches, to and fro over the grid, each batch seeing the levels that those
 /// before it have found: levels travel through the whole grid in one sweep where motion is one way, instead
@@ -56,7 +56,7 @@ class RowOperator {
 /// Threads: called by one thread, which shares each batch with the team and calls `watch.step` between
 /// batches. Nobody else may touch the levels meanwhile. Of several processes all call it together.
 ///
-/// 1. While threads work out a batch no level changes; rows are written when all of them are through. So the
+/// 1. While threads compute a batch no level changes; rows are written when all of them are through. So the
 ///    result, and every count, is the same for any number of threads.
 /// 2. A unit is looked at in at most one batch of a sweep.
 /// 3. Of the rows that can still change those are visited whose unit has not been looked at yet, or whose
@@ -76,12 +76,12 @@ class RowOperator {
 ///
 /// Where the operator says that levels rise, the least solution of level(x) = max(given(x), op(level)(x) - 1)
 /// instead. A cell has level kTop - i if it is i steps from a goal, 1 if it is not known to come there, and
-/// 0, for ever, if it does not count. So the least level of a post is that of its farthest cell, and readers
+/// 0, always, if it does not count. So the least level of a post is that of its farthest cell, and readers
 /// and operators serve both kinds of levels. There is no limit then, and i goes up to kTop - 2.
 /// @param watch its `resumed` is not looked at
 /// @param equal tiles whose numbers, with the levels, are all that the operator's result depends on. Where
 ///   rows of levels are interned, work that is equal to work done in the same sweep is not done again. Of
-///   rows that are permuted only the canonical one is worked out. @pre unchecked: then there is one process,
+///   rows that are permuted only the canonical one is computed. @pre unchecked: then there is one process,
 ///   and levels are the same in permuted rows
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,

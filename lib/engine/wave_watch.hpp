@@ -28,8 +28,8 @@ template <class Level>
 /// The work of a fixed point, of all processes together. The same for any number of threads.
 struct WaveCounts {
   std::int64_t sweeps = 0;
-  std::int64_t rows_visited = 0;  ///< visits: a row counts each time that its levels are worked out
-  std::int64_t rows_copied = 0;   ///< rows that got the levels of a row worked out in the same sweep
+  std::int64_t rows_visited = 0;  ///< visits: a row counts each time that its levels are computed
+  std::int64_t rows_copied = 0;   ///< rows that got the levels of a row computed in the same sweep
   std::int64_t rows_skipped =
       0;  ///< rows whose levels can still sink, passed over as no row that they can meet had changed
 
@@ -44,7 +44,7 @@ struct WaveCounts {
 /// How far the work on a fixed point has come.
 struct WaveStep {
   std::int64_t sweep = 0;      ///< number of the sweep under way
-  std::int64_t visited = 0;    ///< rows that it has worked out so far
+  std::int64_t visited = 0;    ///< rows that it has computed so far
   std::int64_t rows_left = 0;  ///< rows that it has not come to yet, of those whose cells can still be lost
   std::int64_t rows = 0;       ///< all rows whose cells can still be lost
   /// The greatest i such that the first i sets of the sequence (see RowOperator) are known to be final: no

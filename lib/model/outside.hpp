@@ -22,7 +22,7 @@ struct OutsideTraits {
 
   /// At a sample the true state may be beyond the side.
   [[nodiscard]] constexpr bool is_open() const { return blocks || arrives; }
-  /// A state that leaves is safe for ever, and never reaches the goal.
+  /// A state that leaves is safe indefinitely, and never reaches the goal.
   [[nodiscard]] constexpr bool is_only_safe() const { return arrives && !wins; }
 };
 

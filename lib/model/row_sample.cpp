@@ -100,7 +100,7 @@ class SafeAt {
   std::vector<Interval> value_;      ///< by slot
 };
 
-/// Work is counted in cells of rows that are worked out; beyond half of the sample all are taken as
+/// Work is counted in cells of rows that are computed; beyond half of the sample all are taken as
 /// different.
 std::int64_t work_of(const RowSample& sample) {
   return (2 * sample.different > sample.drawn ? sample.rows : sample.different) * sample.lanes;

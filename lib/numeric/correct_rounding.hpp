@@ -33,7 +33,7 @@ enum class ElementaryFunction : std::uint8_t {
 
 /// The double nearest to base^exponent, +infinity on overflow.
 /// @pre base > 0, and base^exponent is irrational (exact_power() returns nothing for an exponent that is no
-/// integer); a rational value could lie between two doubles for ever
+/// integer); a rational value could lie between two doubles indefinitely
 [[nodiscard]] double nearest_power(const Rational& base, const Rational& exponent);
 
 /// The double nearest to the angle of the point (x, y), which is 0 (seen by the caller) or transcendental.

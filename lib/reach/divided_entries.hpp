@@ -10,7 +10,7 @@
 
 namespace coordreq {
 
-/// The entries of a table in full while they are worked out, each for one choice of indices. One process
+/// The entries of a table in full while they are computed, each for one choice of indices. One process
 /// writes them into the table; of several each keeps those of its own choices, and in the end all hear of
 /// them and put into their tables what these hold.
 class DividedEntries {

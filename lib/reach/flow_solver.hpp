@@ -133,7 +133,7 @@ class ValidatedFlow::Solver {
   std::vector<Interval> box_;          ///< during the step
   std::vector<Interval> derivative_;
   std::vector<Interval> next_;
-  /// Solutions whose step is worked out along with the remainder: those that are likely to be asked for.
+  /// Solutions whose step is computed along with the remainder: those that are likely to be asked for.
   struct Along {
     std::size_t solution = 0;
     Deviation start;

@@ -29,7 +29,7 @@ class MapEnclosure {
   /// @param slots a value for every variable of the equation at its slot
   [[nodiscard]] Interval enclose(std::span<const Interval> slots);
 
-  /// Hull of enclosures of single values in the last range; nothing if none was worked out.
+  /// Hull of enclosures of single values in the last range; nothing if none was computed.
   [[nodiscard]] const std::optional<Interval>& reached() const { return reached_; }
   /// Slots of the variables that may be boxes and that the equation mentions.
   [[nodiscard]] const std::vector<std::uint32_t>& directions() const { return directions_; }

@@ -86,7 +86,7 @@ class RowDraw {
     }
   }
 
-  /// Of a grid: its first point and its step, which are worked out from exact numbers only once.
+  /// Of a grid: its first point and its step, which are computed from exact numbers only once.
   struct Scale {
     double first;
     double step;

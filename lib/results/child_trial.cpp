@@ -74,7 +74,7 @@ rlim_t present_bytes() {
 }
 
 /// From now on the child can have one more file open at a time, the one that it reads. A name in that file
-/// that leads to another one leads nowhere: opening a pipe would wait for ever.
+/// that leads to another one leads nowhere: opening a pipe would wait indefinitely.
 void limit_files(int pipe) {
   const int lowest = dup(pipe);  // of the descriptors that are free
   if (lowest < 0) return;        // none is

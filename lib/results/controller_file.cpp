@@ -22,7 +22,7 @@ Kind kind_of(const std::string& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::is_directory(status))
     throw IoError("is a folder, expected a file with a controller", path);
-  // It is read more than once, and a pipe could keep the program for ever.
+  // It is read more than once, and a pipe could keep the program indefinitely.
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw IoError("is a device, a pipe or a socket, expected a file with a controller", path);
   errno = 0;

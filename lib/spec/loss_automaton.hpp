@@ -20,7 +20,7 @@ struct LossAutomaton {
   [[nodiscard]] bool is_up(std::size_t mode) const { return names[mode].back() == '1'; }
 };
 
-/// Lost for `steps` steps, then connected for ever: the modes 0, 00, ... and 1.
+/// Lost for `steps` steps, then connected indefinitely: the modes 0, 00, ... and 1.
 /// @returns nothing if that takes more than `most_modes` modes; likewise below
 [[nodiscard]] std::optional<LossAutomaton> delay_automaton(std::int64_t steps, std::size_t most_modes);
 

@@ -32,7 +32,7 @@ struct MemorySpec {
       states;  ///< that keep it, among the last ones of ProblemSpec::states; perhaps none
 };
 
-/// The rules of agents while they are silent, and those that hold for ever if they never connect again:
+/// The rules of agents while they are silent, and those that hold indefinitely if they never connect again:
 /// conditions over inputs of the agent and states that it sees (contract, section 9), asked of grid points as
 /// ControllerSpec::allow is.
 struct SilenceSpec {

@@ -12,8 +12,8 @@
 
 namespace coordreq {
 
-/// The posts and tubes of the analysis, worked out once more where no file has them: of all cells, or of
-/// some, and then no others are worked out, unless these cost as much as all. Not thread-safe.
+/// The posts and tubes of the analysis, computed once more where no file has them: of all cells, or of
+/// some, and then no others are computed, unless these cost as much as all. Not thread-safe.
 class AnalysisTables {
  public:
   /// @param cells ascending; all if empty

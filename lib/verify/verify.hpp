@@ -29,7 +29,7 @@ struct VerifyOptions {
   std::optional<double> budget_seconds;
 
   static constexpr double kDefaultBudget = 60;
-  /// Risks within the horizon are worked out again too. @pre then neither of the above is given.
+  /// Risks within the horizon are computed again too. @pre then neither of the above is given.
   bool full = false;
   std::function<void(const VerifyProgress&)> progress;  ///< may be empty
 };
@@ -62,7 +62,7 @@ struct Verification {
   std::vector<std::string> given;   ///< paths of what was taken as it is
   std::int64_t enclosed = 0;        ///< reachable sets that are not exact and were looked at
   std::int64_t confirmed = 0;       ///< how many of them the verifier's own enclosures confirm
-  std::int64_t posts_computed = 0;  ///< how many posts of the analysis, a state each, were worked out anew
+  std::int64_t posts_computed = 0;  ///< how many posts of the analysis, a state each, were computed anew
   /// Of enclosures, in units of work.
   struct {
     Work spent = 0;

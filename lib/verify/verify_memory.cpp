@@ -33,7 +33,7 @@ double elements_of_cell(const ResultsReader& results, const Field& field) {
 }
 
 double bytes_of_claims(const ResultsReader& results) {
-  constexpr double kBytesOfTable = 2 * sizeof(std::int64_t) + 1;  // widened, and worked out once more
+  constexpr double kBytesOfTable = 2 * sizeof(std::int64_t) + 1;  // widened, and computed once more
   double bytes = 0, copied = 0, tables = 0;
   for (const Field& field : results.fields()) {
     const double elements = elements_of_cell(results, field);

@@ -1,4 +1,4 @@
-// Safety between the samples, on examples that can be worked out by hand, by both engines.
+// Safety between the samples, on examples that can be computed by hand, by both engines.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What commands work out of single cells is what an analysis stores of all.
+// What commands compute of single cells is what an analysis stores of all.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

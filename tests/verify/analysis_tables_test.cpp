@@ -1,4 +1,4 @@
-// What is worked out for some cells is what is worked out for all, and no more than that.
+// What is computed for some cells is what is computed for all, and no more than that.
 
 #include "verify/analysis_tables.hpp"
 

@@ -20,7 +20,7 @@ struct BlindProblem {
 
 /// B_0 = K, B_1 (find_common_cells()), and from there on the operator of Z. Together.
 ///
-/// B_k is a part of Z_k, and a cell outside B_1 has level 1 for ever, so that the ordinary wave finds the
+/// B_k is a part of Z_k, and a cell outside B_1 keeps level 1, so that the ordinary wave finds the
 /// layers from the levels of Z, lowered to 1 outside B_1. Where B_1 = Z_1 the levels are those of Z.
 [[nodiscard]] LevelMap find_blind_levels(const BlindProblem& problem, const WaveWatch& watch,
                                          ThreadTeam& team, WaveCounts& counts);

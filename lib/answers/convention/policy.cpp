@@ -61,7 +61,7 @@ AnswerPolicy convention_policy() {
 
 }  // namespace
 
-/// Explains how many of its actions each agent would keep, and that it could be silent for ever.
+/// Explains how many of its actions each agent would keep, and that it could be silent indefinitely.
 Explained explain_convention(const ExplainContext& context) {
   Explained result{.key = "convention", .found = std::make_shared<Json>(Json::array())};
   if (context.delay < 0) return result;

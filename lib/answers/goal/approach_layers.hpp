@@ -22,7 +22,7 @@ struct ApproachSets {
 /// lasting goal the layers rest on nothing but P, in G too (section 11).
 ///
 /// Whether all of IND_P comes nearer does not depend on layers, and is found once: a cell where some choice
-/// does not come nearer has level 1, for ever, and cells of G keep the levels of safety; the ordinary wave
+/// does not come nearer keeps level 1, and cells of G keep the levels of safety; the ordinary wave
 /// finds the levels of the other cells. (Where all choices come nearer no post leaves through a `safe` side,
 /// so that one engine is enough.)
 /// @param projections of P

@@ -15,7 +15,7 @@
 
 namespace coordreq {
 
-/// The rows that a sweep works out, ascending.
+/// The rows that a sweep computes, ascending.
 struct PendingRows {
   std::vector<std::int64_t> rows;
   std::int64_t alive = 0;  ///< rows that it chose them from

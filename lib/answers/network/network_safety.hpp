@@ -24,7 +24,7 @@ struct NetworkWatch {
   ///
   /// The result is the same. Usually the operator is monotone, and the sets lie above the greatest solution.
   /// For `resynthesise` they are those after a round, and the next round finds the same sets as without
-  /// interruption: it works out every row, and a row that it would have passed over meets no change, so that
+  /// interruption: it computes every row, and a row that it would have passed over meets no change, so that
   /// it loses no cell.
   std::vector<CellSet>* resumed = nullptr;
 };

@@ -86,9 +86,10 @@ struct AnswerPolicy {
   /// follows the policy no longer, unless the aim lasts. Beyond a side through which the domain is left for
   /// good the steps are 0, too, unless the side is only `safe`.
   struct Aim {
-    std::string path;    ///< of a field over cells alone; empty: the policy has no aim
-    std::string words;   ///< for the steps
-    bool lasts = false;  ///< the policy is followed for ever: in the aim it says more than that of the delays
+    std::string path;   ///< of a field over cells alone; empty: the policy has no aim
+    std::string words;  ///< for the steps
+    bool lasts =
+        false;  ///< the policy is followed indefinitely: in the aim it says more than that of the delays
   };
   Aim aim = {};
   /// Runs follow the policy only on request, by an option of its name, and then everywhere. `trigger` is then

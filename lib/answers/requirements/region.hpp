@@ -25,11 +25,11 @@ namespace coordreq {
 /// The first side (in the order of the dimensions, below before above) beyond which the region may reach;
 /// nothing if it cannot leave the domain.
 ///
-/// Only `unsafe` sides count: beyond a `safe` one the system is safe for ever, beyond a `saturate` or `stop`
-/// limit it never is at a sample, and a periodic state has no outside. States that may be measured beyond the
-/// outer face count, and so does the face itself; the next value of a discrete state is a whole step away.
-/// Conditions are decided by interval evaluation over the whole outside, exactly at its ends, and over pieces
-/// of it where that is too coarse; a condition that stays undecided counts as true.
+/// Only `unsafe` sides count: beyond a `safe` one the system is safe indefinitely, beyond a `saturate` or
+/// `stop` limit it never is at a sample, and a periodic state has no outside. States that may be measured
+/// beyond the outer face count, and so does the face itself; the next value of a discrete state is a whole
+/// step away. Conditions are decided by interval evaluation over the whole outside, exactly at its ends, and
+/// over pieces of it where that is too coarse; a condition that stays undecided counts as true.
 [[nodiscard]] std::optional<DomainSide> side_reached(const Program& where, const UniformGrid& grid);
 
 }  // namespace coordreq

@@ -12,7 +12,7 @@ namespace coordreq {
 /// E_q V of all cells, as levels for a PostReader: in 32 bits one map for each different E_q, in 64 bits one
 /// map for one E_q at a time.
 ///
-/// Of several processes each works out the rows that it owns, and takes in its ghost rows.
+/// Of several processes each computes the rows that it owns, and takes in its ghost rows.
 template <class Level>
 class ExpectedLevels {
  public:

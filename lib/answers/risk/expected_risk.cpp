@@ -15,7 +15,7 @@
 namespace coordreq {
 namespace {
 
-/// Lanes that are worked out together; they stay in the first-level cache.
+/// Lanes that are computed together; they stay in the first-level cache.
 constexpr std::size_t kLanes = 256;
 
 /// The processor rounds up during the lifetime of this object.

@@ -1,4 +1,4 @@
-// Systems small enough to work out by hand, of agents who see nothing: at each value of a state that stands
+// Systems small enough to compute by hand, of agents who see nothing: at each value of a state that stands
 // still one action is right, and no agent can tell which.
 
 #include <gtest/gtest.h>

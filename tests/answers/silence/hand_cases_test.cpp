@@ -1,4 +1,4 @@
-// Points on a line that agents push: small enough to work out by hand what agents with rules do.
+// Points on a line that agents push: small enough to compute by hand what agents with rules do.
 
 #include <gtest/gtest.h>
 
