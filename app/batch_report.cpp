@@ -65,9 +65,7 @@ std::vector<std::string> figures(const Json& summary, const RunFigures& more, co
 
 /// Figures as wide as those of an analysis can be, or will hardly ever be.
 std::vector<std::string> wide_figures(const ProblemSpec& spec, const RunFigures& more) {
-  std::int64_t count = 1;
-  for (const StateSpec& state : spec.states) count *= state.grid.count;
-  const std::string cells = grouped(count);
+  const std::string cells = grouped(spec.cells());
   const bool may_stop = spec.coordination.max_delay.has_value();
   const auto of_all = [&spec](const std::string& figure) {
     return joined(std::vector<std::string>(spec.coordination.partitions.size(), figure));

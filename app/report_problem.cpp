@@ -59,12 +59,11 @@ std::string states_table(const ProblemSpec& spec) {
   std::string rows;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const StateSpec& state = spec.states[i];
-    const Rational last =
-        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
-    rows += html_row({html_code(state.name),
-                      with_unit(number_text(state.grid.first) + " to " + number_text(last), state.unit),
-                      with_unit(number_text(state.grid.step), state.unit), grouped(state.grid.count),
-                      html_code(spec.dynamics.equations[i].text)});
+    rows += html_row(
+        {html_code(state.name),
+         with_unit(number_text(state.grid.first) + " to " + number_text(state.grid.last()), state.unit),
+         with_unit(number_text(state.grid.step), state.unit), grouped(state.grid.count),
+         html_code(spec.dynamics.equations[i].text)});
   }
   return html_table("State",
                     {"state", "grid", "step", "points", continuous ? "rate of change" : "next value"}, rows);

@@ -188,10 +188,9 @@ std::string outside_text(const Json& entry, const ProblemSpec& spec) {
   for (const StateSpec& state : spec.states) {
     if (state.name != text_of(side["state"])) continue;
     const bool is_above = side["side"] == "above";
-    const Rational last =
-        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
-    text += fmt::format("; add \"and {} {} {:.6g}\" to its \"where\"", state.name,
-                        is_above ? "<=" : ">=", nearest_double(is_above ? last : state.grid.first));
+    text +=
+        fmt::format("; add \"and {} {} {:.6g}\" to its \"where\"", state.name,
+                    is_above ? "<=" : ">=", nearest_double(is_above ? state.grid.last() : state.grid.first));
   }
   return text;
 }

@@ -18,10 +18,10 @@ namespace {
 
 /// Whether posts can be had at little cost.
 bool has_few_posts(const Model& model) {
-  constexpr double kMostCells = 1e6, kMostEntries = 2e4;
-  double cells = 1;
-  for (const StateSpec& state : model.spec().states) cells *= static_cast<double>(state.grid.count);
-  return cells <= kMostCells && entries_of(model.shapes()) <= kMostEntries && !model.spec().controller.file;
+  constexpr std::int64_t kMostCells = 1'000'000;
+  constexpr double kMostEntries = 2e4;
+  return model.spec().cells() <= kMostCells && entries_of(model.shapes()) <= kMostEntries &&
+         !model.spec().controller.file;
 }
 
 void add(Warnings more, Warnings& all) {

@@ -207,9 +207,7 @@ class SweepMeter {
 /// @throws OutOfWork
 Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
   const Model model = make_model(spec);
-  double cells = 1;
-  for (const StateSpec& state : spec.states) cells *= static_cast<double>(state.grid.count);
-  limit.spend(work_of_tables(model) + cells * work_of_visit(model));
+  limit.spend(work_of_tables(model) + static_cast<double>(spec.cells()) * work_of_visit(model));
   SweepMeter meter(work_of_visit(model), limit);
   Answers answers(model);
   std::vector<Stage> stages = context_answer.stages(spec);
@@ -246,7 +244,7 @@ Trials try_all(const ProblemSpec& spec, Fault fault, ThreadTeam& team) {
 
 std::string place_of_trials(const CoarseCopy& copy) {
   if (copy.factor == 1) return "";
-  return fmt::format(" on a copy with {} cells (steps up to {} times as long)", grouped(copy.cells),
+  return fmt::format(" on a copy with {} cells (steps up to {} times as long)", grouped(copy.spec.cells()),
                      copy.factor);
 }
 

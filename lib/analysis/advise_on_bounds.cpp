@@ -30,8 +30,7 @@ Faces faces_of(const StateSpec& state) {
 /// Whether a bound lies within a cell, part of which is occupied on both sides of it.
 bool cuts_a_cell(const StateSpec& state, const Rational& value) {
   const Rational half = state.grid.step / 2;
-  const Rational last =
-      state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
+  const Rational last = state.grid.last();
   const Rational low = state.below == Outside::stop ? state.grid.first : Rational(state.grid.first - half);
   const Rational high = state.above == Outside::stop ? last : Rational(last + half);
   return low < value && value < high && !faces_of(state).has(value);

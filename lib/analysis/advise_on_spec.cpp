@@ -22,14 +22,14 @@ std::string short_number(const Rational& value) {
 /// Whether points from first to last, a step apart, are what somebody means by the domain [lower, upper]:
 /// they meet its ends, or the cells around them do.
 bool covers(const GridSpec& grid, const Rational& lower, const Rational& upper, const Rational& margin) {
-  const Rational last = grid.first + grid.step * Rational(mpz_class(static_cast<long>(grid.count - 1)));
+  const Rational last = grid.last();
   const auto meets = [&](const Rational& by) { return grid.first == lower + by && last == upper - by; };
   return meets(0) || meets(margin);
 }
 
 void advise_on_grid(const std::string& points, const GridSpec& grid, const Rational& lower,
                     const Rational& upper, const std::string& place, Warnings& found) {
-  const Rational last = grid.first + grid.step * Rational(mpz_class(static_cast<long>(grid.count - 1)));
+  const Rational last = grid.last();
   const char* const reason =
       is_integer(Rational((upper - lower) / grid.step)) ? "" : ", because the step does not divide that";
   found.push_back({"grid", place,

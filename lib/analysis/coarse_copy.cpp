@@ -12,12 +12,6 @@ Rational rational(std::int64_t number) {
   return Rational(mpz_class(static_cast<long>(number)));
 }
 
-std::int64_t count_cells(const ProblemSpec& spec) {
-  std::int64_t cells = 1;
-  for (const StateSpec& state : spec.states) cells *= state.grid.count;
-  return cells;
-}
-
 void leave_only(std::size_t partition, ProblemSpec& spec) {
   CoordinationSpec& coordination = spec.coordination;
   coordination = CoordinationSpec{.partitions = {coordination.partitions[partition]}, .max_delay = 1};
@@ -62,8 +56,7 @@ std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t parti
     CoarseCopy copy{.spec = spec, .factor = factor};
     leave_only(partition, copy.spec);
     coarsen(copy.spec, factor);
-    copy.cells = count_cells(copy.spec);
-    if (copy.cells <= most_cells && entries_of(table_shapes(copy.spec)) <= most_entries) return copy;
+    if (copy.spec.cells() <= most_cells && entries_of(table_shapes(copy.spec)) <= most_entries) return copy;
   }
   return std::nullopt;
 }

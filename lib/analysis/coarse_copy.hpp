@@ -21,7 +21,6 @@ void coarsen(ProblemSpec& spec, std::int64_t factor);
 /// partition up to Z_1 are left.
 struct CoarseCopy {
   ProblemSpec spec;
-  std::int64_t cells = 0;
   std::int64_t factor = 1;  ///< of steps; 1: the grid is that of the spec
 };
 

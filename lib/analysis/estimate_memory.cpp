@@ -34,9 +34,7 @@ double estimate_memory_of_rank(const Model& model, int threads, double before, c
 }
 
 void check_memory_limit(const ProblemSpec& spec, double needed, double limit, const std::string& by_whom) {
-  std::int64_t cells = 1;
-  for (const StateSpec& state : spec.states) cells *= state.grid.count;
-  check_memory_need(fmt::format("{} cells need", grouped(cells)), needed, limit, by_whom);
+  check_memory_need(fmt::format("{} cells need", grouped(spec.cells())), needed, limit, by_whom);
 }
 
 int threads_within(const Model& model, std::optional<std::uint64_t> limit, int threads, bool saves) {

@@ -41,12 +41,6 @@ struct Measured {
   [[nodiscard]] double all() const { return tables + rest; }
 };
 
-double cells_of(const ProblemSpec& spec) {
-  return std::accumulate(
-      spec.states.begin(), spec.states.end(), 1.0,
-      [](double cells, const StateSpec& state) { return cells * static_cast<double>(state.grid.count); });
-}
-
 /// Processor time of all threads of this process, in seconds.
 double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -88,7 +82,7 @@ Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
   };
   const Model model = make_model(spec);
   Answers answers(model);
-  Measured result{.cells = cells_of(spec), .entries = entries_of(model.shapes())};
+  Measured result{.cells = static_cast<double>(spec.cells()), .entries = entries_of(model.shapes())};
   try {
     run_stages(analysis_stages(spec), answers, {.team = team}, {.enter = enter});
     result.tables = tables / team.size();
@@ -133,7 +127,7 @@ ProblemSpec coarser(const ProblemSpec& spec, std::int64_t factor) {
 std::optional<ProblemSpec> copy_within(const ProblemSpec& spec, double most_cells) {
   for (std::int64_t factor = 1; factor <= 4096; factor = factor < 8 ? factor + 1 : factor * 5 / 4) {
     ProblemSpec copy = coarser(spec, factor);
-    if (cells_of(copy) <= most_cells) return copy;
+    if (static_cast<double>(copy.cells()) <= most_cells) return copy;
   }
   return std::nullopt;
 }
@@ -142,7 +136,7 @@ std::optional<ProblemSpec> copy_within(const ProblemSpec& spec, double most_cell
 double extrapolated(const Model& model, const std::vector<Measured>& copies,
                     std::optional<double> enclosures) {
   const Measured& last = copies.back();
-  const double cells = cells_of(model.spec());
+  const double cells = static_cast<double>(model.spec().cells());
   double power = 1;
   if (copies.size() > 1) {
     const Measured& before = copies[copies.size() - 2];
@@ -156,11 +150,11 @@ double extrapolated(const Model& model, const std::vector<Measured>& copies,
 /// @param enclosures as in extrapolated()
 std::optional<double> estimated(const Model& model, ThreadTeam& team, std::optional<double> enclosures) {
   const ProblemSpec& spec = model.spec();
-  const double cells = cells_of(spec);
+  const double cells = static_cast<double>(spec.cells());
   std::vector<Measured> copies;
   for (auto most = static_cast<double>(kFirstCells);; most *= kGrowth) {
     const std::optional<ProblemSpec> copy = copy_within(spec, most);
-    if (copy && (copies.empty() || cells_of(*copy) > copies.back().cells))
+    if (copy && (copies.empty() || static_cast<double>(copy->cells()) > copies.back().cells))
       copies.push_back(measure(*copy, team));
     if (copies.empty()) {
       if (most > cells) return std::nullopt;
@@ -192,7 +186,8 @@ bool may_take_hours(const Model& model) {
   const ProblemSpec& spec = model.spec();
   const double horizon = spec.risk ? static_cast<double>(spec.risk->horizon) : 0;
   const auto partitions = static_cast<double>(spec.coordination.partitions.size());
-  return cells_of(spec) * (partitions + horizon) > kManyVisits || entries_of(model.shapes()) > kManyEntries;
+  return static_cast<double>(spec.cells()) * (partitions + horizon) > kManyVisits ||
+         entries_of(model.shapes()) > kManyEntries;
 }
 
 }  // namespace coordreq

@@ -49,7 +49,7 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
 SpecReport inspect(const Model& model, int threads) {
   const ProblemSpec& spec = model.spec();
   if (spec.controller.file) check_controller_file(spec);
-  SpecReport report{.name = spec.name, .cells = 1, .joint_inputs = 1};
+  SpecReport report{.name = spec.name, .cells = spec.cells(), .joint_inputs = 1};
   const std::vector<TableShape>& shapes = model.shapes();
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const StateSpec& state = spec.states[i];
@@ -66,7 +66,6 @@ SpecReport inspect(const Model& model, int threads) {
                           .sum = shapes[i].sum,
                           .table_entries = to_bytes(shapes[i].entries),
                           .table_bytes = to_bytes(shapes[i].bytes)});
-    report.cells *= state.grid.count;
   }
   for (const InputSpec& input : spec.inputs) {
     const auto points = static_cast<std::int64_t>(input.values.size());

@@ -33,8 +33,7 @@ struct Ends {
 std::vector<Ends> ends_of(const SystemSpec& spec) {
   std::vector<Ends> all;
   for (const StateSpec& state : spec.states) {
-    const Rational last =
-        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
+    const Rational last = state.grid.last();
     const Rational half = state.discrete ? Rational(0) : Rational(state.grid.step / 2);
     const Rational below = state.below == Outside::stop ? Rational(0) : half;
     const Rational above = state.above == Outside::stop ? Rational(0) : half;

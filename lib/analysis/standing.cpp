@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::int64_t kStandingCells = 1024, kStandingInputs = 64;
 
-Rational last_point(const StateSpec& state) {
-  return state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
-}
-
 /// Whether states and inputs are at rest: every derivative is 0, or leads out through a side that stops it.
 class Rest {
  public:
@@ -46,7 +42,7 @@ class Rest {
   [[nodiscard]] bool stays(std::size_t i, double value, double rate) const {
     const StateSpec& state = spec_.states[i];
     const double first = nearest_double(state.grid.first);
-    const double last = nearest_double(last_point(state));
+    const double last = nearest_double(state.grid.last());
     return rate == 0 || (state.below == Outside::stop && value == first && rate < 0) ||
            (state.above == Outside::stop && value == last && rate > 0);
   }
@@ -166,7 +162,7 @@ std::string inputs_text(const ProblemSpec& spec, const InputSpace& inputs, std::
 /// "\"lower\": -0.125, \"origin\": 0.125": with it a face of cells is at the limit.
 std::string face_text(const StateSpec& state, bool above) {
   const Rational half = state.grid.step / 2;
-  const Rational end = above ? Rational(last_point(state) + half) : Rational(state.grid.first - half);
+  const Rational end = above ? Rational(state.grid.last() + half) : Rational(state.grid.first - half);
   const Rational origin = above ? end : Rational(state.grid.first + half);
   return fmt::format("\"{}\": {:.6g}, \"origin\": {:.6g}", above ? "upper" : "lower", nearest_double(end),
                      nearest_double(origin));
@@ -195,7 +191,7 @@ Warnings advise_on_standing(const AnalysisContext& context, const CellSet& invar
              "between samples",
              values_text(context.abstraction->grid, found->cell),
              inputs_text(spec, context.abstraction->inputs, found->input), state.name,
-             nearest_double(above ? last_point(state) : state.grid.first), spec.states[moved].name,
+             nearest_double(above ? state.grid.last() : state.grid.first), spec.states[moved].name,
              face_text(state, above), state.name, state.name)}};
   }
   return {};

@@ -81,9 +81,7 @@ std::vector<std::string> cell_axes(const std::string& leading, const SystemSpec&
 }
 
 std::uint64_t cell_count(const SystemSpec& spec) {
-  std::uint64_t cells = 1;
-  for (const StateSpec& state : spec.states) cells *= static_cast<std::uint64_t>(state.grid.count);
-  return cells;
+  return static_cast<std::uint64_t>(spec.cells());
 }
 
 void add_bits(Fields& fields, const std::string& path, FieldSection section, const SystemSpec& spec,

@@ -19,8 +19,7 @@ bool is_enclosed(const SystemSpec& spec, const AffineDynamics& dynamics, std::si
     std::vector<Rational> slots(spec.slot_count());
     for (const std::int32_t j : dependencies.parameters) {
       const GridSpec& grid = spec.states[at(j)].grid;
-      slots[spec.state_slot(at(j))] =
-          grid.first + grid.step * Rational(static_cast<long>((grid.count - 1) * half / 2));
+      slots[spec.state_slot(at(j))] = grid.point((grid.count - 1) * half / 2);
     }
     for (const std::int32_t j : dependencies.inputs) {
       const std::vector<Rational>& values = spec.inputs[at(j)].values;

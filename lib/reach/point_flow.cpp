@@ -66,10 +66,8 @@ PointFlow::Range PointFlow::range_of(const StateSpec& state, bool is_used) {
     if (!is_used) return {-kInfinity, kInfinity, false};
     return {nearest_double(state.lower), nearest_double(state.upper), true};
   }
-  const Rational last =
-      state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
   return {state.below == Outside::stop ? nearest_double(state.grid.first) : -kInfinity,
-          state.above == Outside::stop ? nearest_double(last) : kInfinity, false};
+          state.above == Outside::stop ? nearest_double(state.grid.last()) : kInfinity, false};
 }
 
 void PointFlow::put(const Values& x) {

@@ -51,10 +51,8 @@ bool flow_shifts(const SystemSpec& spec, const Dependencies& dependencies, std::
 Interval range_of(const StateSpec& state) {
   const Rational reach =
       (state.discrete ? Rational(0) : Rational(state.grid.step / 2)) + state.measurement_error;
-  const Rational last =
-      state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
   const Rational lower = std::min(Rational(state.grid.first - reach), state.lower);
-  return enclose(lower, std::max(Rational(last + reach), state.upper));
+  return enclose(lower, std::max(Rational(state.grid.last() + reach), state.upper));
 }
 
 Interval range_of(const InputSpec& input) {

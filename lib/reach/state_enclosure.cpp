@@ -17,12 +17,10 @@ namespace coordreq {
 namespace {
 
 FlowSystem::Limit limit_of(const StateSpec& state) {
-  const Rational last =
-      state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
   return {.below = state.below == Outside::stop,
           .above = state.above == Outside::stop,
           .lower = enclose(state.grid.first),
-          .upper = enclose(last)};
+          .upper = enclose(state.grid.last())};
 }
 
 /// The state stays within its limits; what rounding adds beyond them is dropped.

@@ -42,8 +42,7 @@ void add_axes(const ResultsReader& results, Json& info) {
   for (std::size_t i = 0; i < results.grid().size(); ++i) {
     const StateSpec& state = results.spec().states[i];
     const GridSpec& grid = state.grid;
-    const Rational last = grid.first + grid.step * Rational(static_cast<long>(grid.count - 1));
-    info["states"].push_back(axis_json(state.name, state.unit, grid.count, grid.first, last));
+    info["states"].push_back(axis_json(state.name, state.unit, grid.count, grid.first, grid.last()));
     info["states"].back()["outside"] = {{"below", outside_word(state.below)},
                                         {"above", outside_word(state.above)}};
   }

@@ -153,10 +153,7 @@ struct Axis : scots::Axis {
 };
 
 Axis axis_of(const StateSpec& state) {
-  const Rational length = state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
-  Axis axis{
-      {state.name, state.grid.first, Rational(state.grid.first + length), state.grid.step, state.grid.count},
-      {}};
+  Axis axis{{state.name, state.grid.first, state.grid.last(), state.grid.step, state.grid.count}, {}};
   axis.index.resize(static_cast<std::size_t>(axis.count));
   std::iota(axis.index.begin(), axis.index.end(), 0);
   return axis;

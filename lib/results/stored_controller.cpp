@@ -49,8 +49,7 @@ class StoredController {
 
   static std::vector<Rational> grid_points(const GridSpec& grid) {
     std::vector<Rational> points;
-    for (std::int64_t k = 0; k < grid.count; ++k)
-      points.emplace_back(grid.first + grid.step * Rational(static_cast<long>(k)));
+    for (std::int64_t k = 0; k < grid.count; ++k) points.push_back(grid.point(k));
     return points;
   }
 

@@ -67,7 +67,7 @@ GridSpec grid_by_count(const Node& object, const Rational& lower, const Rational
 /// The results file and the engines address points by doubles.
 void check_distinct(const GridSpec& grid, const std::string& pointer) {
   if (grid.count < 2) return;
-  const Rational last = grid.first + grid.step * Rational(mpz_class(static_cast<long>(grid.count - 1)));
+  const Rational last = grid.last();
   const bool is_distinct = nearest_double(grid.first) < nearest_double(grid.first + grid.step) &&
                            nearest_double(last - grid.step) < nearest_double(last);
   if (!is_distinct) {

@@ -59,6 +59,9 @@ struct GridSpec {
   Rational first;
   Rational step;
   std::int64_t count = 0;
+
+  [[nodiscard]] Rational point(std::int64_t k) const { return first + step * Rational(static_cast<long>(k)); }
+  [[nodiscard]] Rational last() const { return point(count - 1); }
 };
 
 }  // namespace coordreq

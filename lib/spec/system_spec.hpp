@@ -113,6 +113,11 @@ struct SystemSpec {
     return static_cast<std::uint32_t>(states.size() + inputs.size() + i);
   }
   [[nodiscard]] std::size_t slot_count() const { return states.size() + inputs.size() + disturbances.size(); }
+  [[nodiscard]] std::int64_t cells() const {
+    std::int64_t product = 1;
+    for (const StateSpec& state : states) product *= state.grid.count;
+    return product;
+  }
 };
 
 }  // namespace coordreq

@@ -140,11 +140,9 @@ FlowExtremes::FlowExtremes(const SystemSpec& spec, const Influences& influences,
   for (const std::size_t j : influences.moving) {
     states_.push_back(spec.state_slot(j));
     const StateSpec& state = spec.states[j];
-    const Rational last =
-        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
     StopLimits& limits = limits_.emplace_back();
     if (state.below == Outside::stop) limits.below = Arb(state.grid.first).lower();
-    if (state.above == Outside::stop) limits.above = Arb(last).upper();
+    if (state.above == Outside::stop) limits.above = Arb(state.grid.last()).upper();
   }
   for (const std::size_t j : seams_that_jump(spec, influences)) {
     const StateSpec& state = spec.states[j];

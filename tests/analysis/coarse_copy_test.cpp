@@ -66,7 +66,7 @@ TEST(CoarseCopy, IsTheSpecWhereThatIsSmall) {
   const std::optional<CoarseCopy> copy = coarse_copy(small_spec(""), 1, 505, 1e6);
   ASSERT_TRUE(copy);
   EXPECT_EQ(copy->factor, 1);
-  EXPECT_EQ(copy->cells, 505);
+  EXPECT_EQ(copy->spec.cells(), 505);
   EXPECT_EQ(copy->spec.coordination.partitions.size(), 1U);
   EXPECT_EQ(copy->spec.coordination.partitions[0].canonical, "a|b");
   EXPECT_EQ(copy->spec.coordination.max_delay, 1);
@@ -78,7 +78,7 @@ TEST(CoarseCopy, IsNoCoarserThanItMust) {
   const std::optional<CoarseCopy> copy = coarse_copy(small_spec(""), 0, 504, 1e6);
   ASSERT_TRUE(copy);
   EXPECT_EQ(copy->factor, 2);
-  EXPECT_EQ(copy->cells, 51 * 5);  // the few points of y stay
+  EXPECT_EQ(copy->spec.cells(), 51 * 5);  // the few points of y stay
 }
 
 TEST(CoarseCopy, IsNotThereWhereNoneIsSmallEnough) {
