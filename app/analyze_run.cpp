@@ -37,8 +37,9 @@ class InterruptPolicy {
   void obey(const Progress& progress) {
     if (progress.has_temporary && !delay_) delay_.emplace();
     if (!progress.has_temporary) delay_.reset();
-    // After that: one that came before the end of the delay has been kept waiting.
-    if (is_interrupted()) throw interruption();
+    // After that: one that came before the end of the delay has been kept waiting. Once the results are
+    // complete it is told at the end, see check_interrupted().
+    if (is_interrupted() && !progress.is_written) throw interruption();
   }
 
  private:

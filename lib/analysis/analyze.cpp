@@ -128,6 +128,7 @@ void write(const std::string& path, const Answers& answers, StageReporter& repor
   std::optional<RankChunks> ranks;
   if (answers.context.share) ranks.emplace(team, *answers.context.share, *answers.context.order);
   write_results(path, answers.context.spec, values, team, ranks ? &*ranks : nullptr);
+  reporter.set_written();
 }
 
 /// The members of all answers. @param work takes the counts of fixed points

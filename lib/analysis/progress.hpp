@@ -21,6 +21,7 @@ struct Progress {
   std::int64_t done = 0;        ///< of this pass
   std::int64_t all = 0;
   bool has_temporary = false;  ///< there may be a temporary file, which must not be left behind
+  bool is_written = false;     ///< the results file is complete
 };
 
 }  // namespace coordreq

@@ -31,6 +31,8 @@ class StageReporter {
   void step(const WaveStep& step, std::int64_t row_length);
   /// Until told otherwise there may be a temporary file.
   void set_temporary(bool has_temporary);
+  /// The results file is complete.
+  void set_written() { progress_.is_written = true; }
   /// From now on the pass is to fill the arrays of these values; their functions are replaced by ones that
   /// count. @pre unchecked: this outlives the values
   void watch_writing(const ProblemSpec& spec, FieldValues& values);

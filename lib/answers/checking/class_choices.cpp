@@ -12,9 +12,9 @@ ClassChoices::ClassChoices(const ProblemSpec& spec, const UniformGrid& grid, con
     : joint_inputs_(inputs.count()), actions_(partition.size()) {
   const char* const pointer = rules == Rules::then ? "/silence/then" : "/silence/actions";
   for (const std::vector<std::int32_t>& agents : partition) {
-    Class& own = classes_.emplace_back(Class{class_of(spec, inputs, agents), {}, {}, rules == Rules::none});
-    own.parts = own.inputs.parts();
-    own.inputs.tabulate();
+    InputClass& input_class = inputs_.emplace_back(class_of(spec, inputs, agents));
+    Class& own = classes_.emplace_back(Class{input_class.parts(), {}, rules == Rules::none});
+    input_class.tabulate();
     for (const std::int32_t i : agents) {
       if (rules == Rules::none) continue;
       const auto& rule = rules == Rules::then ? spec.silence->then[at(i)] : spec.silence->actions[at(i)];
@@ -34,7 +34,7 @@ void ClassChoices::find(std::int64_t cell, const ForEachJoint& for_each_joint) {
     Class& own = classes_[c];
     std::vector<std::uint8_t>& actions = actions_[c];
     actions.assign(own.parts.size(), own.asks_controller ? 0 : 1);
-    if (own.asks_controller) for_each_joint([&](std::int64_t u) { actions[at(own.inputs.action(u))] = 1; });
+    if (own.asks_controller) for_each_joint([&](std::int64_t u) { actions[at(inputs_[c].action(u))] = 1; });
     for (PermittedInputs& rule : own.rules) {
       rule.go_to(cell);
       for (std::size_t a = 0; a < actions.size(); ++a) {
@@ -57,7 +57,7 @@ void ClassChoices::go_to(std::int64_t cell, const Numbers& joint) {
 }
 
 void ClassChoices::restrict_to(std::size_t c, const std::vector<std::uint8_t>& bytes, std::size_t cell) {
-  const std::size_t first = cell * at(classes_[c].inputs.bytes());
+  const std::size_t first = cell * at(inputs_[c].bytes());
   for (std::size_t a = 0; a < actions_[c].size(); ++a)
     actions_[c][a] &= static_cast<std::uint8_t>(bytes[first + a / 8] >> (a % 8) & 1U);
 }

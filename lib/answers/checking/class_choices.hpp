@@ -42,7 +42,7 @@ class ClassChoices {
   /// Whether each class can choose its action in u.
   [[nodiscard]] bool has(std::int64_t u) const {
     for (std::size_t c = 0; c < actions_.size(); ++c) {
-      if (actions_[c][at(classes_[c].inputs.action(u))] == 0) return false;
+      if (actions_[c][at(inputs_[c].action(u))] == 0) return false;
     }
     return true;
   }
@@ -54,7 +54,6 @@ class ClassChoices {
 
  private:
   struct Class {
-    InputClass inputs;
     Numbers parts;                      ///< [action] what it adds to the number of a joint input
     std::deque<PermittedInputs> rules;  ///< of its agents
     bool asks_controller;               ///< an agent has no rule
@@ -64,6 +63,7 @@ class ClassChoices {
   void find(std::int64_t cell, const ForEachJoint& for_each_joint);
 
   std::int64_t joint_inputs_;
+  std::vector<InputClass> inputs_;  ///< [class]
   std::deque<Class> classes_;
   std::vector<std::vector<std::uint8_t>> actions_;
 };
