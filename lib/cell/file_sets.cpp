@@ -1,5 +1,6 @@
 #include "cell/file_sets.hpp"
 
+#include "answers/countdown/kinds.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/stored_partition.hpp"
 #include "answers/paths.hpp"
@@ -84,7 +85,7 @@ void FileSets::read_cells(std::size_t partition) {
 void FileSets::read_silence(std::size_t partition) {
   const UniformGrid& grid = context_.abstraction->grid;
   const std::int64_t length = grid.row_length();
-  take_sizes(read_partition_values(results_.spec(), results_, "/silence_")[partition], silence_);
+  take_sizes(read_partition_values(results_.spec(), results_, kSilenceKind.prefix())[partition], silence_);
   const auto last = static_cast<std::int32_t>(silence_.sizes.size()) - 1;
   Levels silence(grid.rows(), length, {}, {}), lost(grid.rows(), length, {}, {});
   for (std::int64_t r = 0; r < grid.rows(); ++r) {
