@@ -83,7 +83,7 @@ Json silence_json(const DelayExplanation::Silence& found, std::size_t partition,
   }
   Json& way = json["way_out"] = Json();
   if (!found.path) return json;
-  way = story_json(*found.path, RequirementKind::min_silence, spec);
+  way = path_json(*found.path, RequirementKind::min_silence, spec);
   // Where it goes from there the file does not tell.
   if (way["end_sample"].is_object() && way["end_sample"]["silence_status"] == "not_in_silence_set" &&
       spec.silence->has_then())
@@ -218,7 +218,7 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
   json["partition"] = results.partitions()[partition].name;
   add_delay(json, found.delay, found.is_lower_bound);
   if (spec.ends_at_goal()) json["over"] = found.is_over;
-  json["way_out"] = found.path ? story_json(*found.path, RequirementKind::min_delay, spec) : Json();
+  json["way_out"] = found.path ? path_json(*found.path, RequirementKind::min_delay, spec) : Json();
   const bool is_in_k = found.delay >= 0;
   json["freedom"] = is_in_k ? freedom_json(found, results.partitions()[partition]) : Json();
   json["remedies"] = Json::array();

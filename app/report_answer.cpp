@@ -184,7 +184,7 @@ class Answers {
   Answers(const ResultsReader& results, const ReportData& data)
       : results_(results), data_(data), policies_(headline_policies(results.spec())) {
     for (const AnswerPolicy& policy : policies_)
-      sizes_.push_back(read_partition_values(results.spec(), results, policy.sizes()));
+      sizes_.push_back(read_partition_values(results.spec(), results, policy.kind->prefix()));
   }
 
   /// What the spec asks for, large; the others below.

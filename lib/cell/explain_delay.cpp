@@ -6,8 +6,6 @@
 
 #include "answers/paths.hpp"
 #include "answers/plan.hpp"
-#include "answers/requirements/escape_result.hpp"
-#include "answers/requirements/requirement.hpp"
 #include "answers/silence/answer.hpp"
 #include "answers/step_codes.hpp"
 #include "base/index.hpp"
@@ -33,10 +31,9 @@ class Explainer {
 
   DelayExplanation run(std::int64_t cell, const std::vector<Rational>& state) {
     DelayExplanation found{.delay = delay_at(cell)};
-    const DelayLayers& layers = sets_.layers();
-    found.is_lower_bound = layers.truncated && found.delay >= 0 && found.delay == layers.top_delay();
-    const bool is_bounded = found.delay != kUnbounded && !found.is_lower_bound;
-    if (is_bounded) found.path = way_out(cell, state);
+    found.is_lower_bound = sets_.delays().is_lower_bound(cell);
+    const bool is_bounded = sets_.delays().is_bounded(cell);
+    if (is_bounded) found.path = counterexample(cell, state);
     found.is_over = is_over(cell);
     if (!found.is_over) {
       add_others(cell, is_bounded, found);
@@ -75,53 +72,41 @@ class Explainer {
     }
   }
 
-  [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const {
-    return delay_of(cell, sets_.invariance().collision_time.at(cell), &sets_.layers());
-  }
+  [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const { return sets_.delays().steps[at(cell)]; }
 
   /// A goal that ends the task is reached there.
   [[nodiscard]] bool is_over(std::int64_t cell) {
     return results_.spec().ends_at_goal() && controller_.values(paths::kArrival, partition_)(cell) == 0;
   }
 
-  [[nodiscard]] ResultPath way_out(std::int64_t cell, const std::vector<Rational>& state) const {
-    return way_out({.context = &sets_.context(),
-                    .invariance = &sets_.invariance(),
-                    .classes = classes_,
-                    .layers_of = &sets_.layers().layers_of,
-                    .number_stride = sets_.number_stride()},
-                   sets_.layers(), cell, state);
+  [[nodiscard]] ResultPath counterexample(std::int64_t cell, const std::vector<Rational>& state) const {
+    CounterexampleProblem problem = sets_.problem(sets_.delays());
+    problem.phases = {independent_phase(problem, sets_.delays().layers()), evasive_phase(problem)};
+    return find_counterexample(problem, cell, state);
   }
 
-  [[nodiscard]] ResultPath way_out(const EscapeSets& sets, const DelayLayers& layers, std::int64_t cell,
-                                   const std::vector<Rational>& state) const {
-    const CellRequirement asked{
-        .collision_time = &sets_.invariance().collision_time, .kind = sets.kind, .layers = &layers};
-    ResultPath path = result_of(find_escape(sets, cell, state), sets_.context(), asked, sets.number_stride);
-    if (path.steps() > 0) path.seen = follow_escape(sets, cell, state);
-    return path;
+  /// With a fallback rule the path ends outside K': the file does not have the steps after which that rule
+  /// leaves S.
+  [[nodiscard]] ResultPath silent_counterexample(std::int64_t cell,
+                                                 const std::vector<Rational>& state) const {
+    const FileSteps& silence = sets_.silence();
+    CounterexampleProblem problem = sets_.problem(silence);
+    if (results_.spec().silence->has_then()) {
+      problem.phases = {silent_phase(silence.layers(), [&steps = silence.steps](std::int64_t y) {
+        return steps[at(y)] >= 0 ? INT64_MAX : steps[at(y)] == kOutsideSafe ? 0 : 1;
+      })};
+    } else {
+      problem.phases = {silent_phase(silence.layers(), problem.collision_time), evasive_phase(problem)};
+    }
+    return find_counterexample(problem, cell, state);
   }
 
   [[nodiscard]] DelayExplanation::Silence explain_silence(std::int64_t cell,
                                                           const std::vector<Rational>& state) {
-    const ProblemSpec& spec = results_.spec();
-    const DelayLayers& layers = sets_.silence();
-    DelayExplanation::Silence found{.steps = controller_.values(paths::kSilence, partition_)(cell)};
-    found.is_lower_bound = layers.truncated && found.steps >= 0 && found.steps == layers.top_delay();
-    found.actions = controller_.actions(silence_policies(spec).front(), partition_, cell, 0);
-    if (found.steps < 0 || found.steps == kUnbounded || found.is_lower_bound) return found;
-    const bool has_then = spec.silence->has_then();
-    found.path = way_out({.context = &sets_.context(),
-                          .invariance = &sets_.invariance(),
-                          .classes = classes_,
-                          .layers_of = &sets_.layers().layers_of,
-                          .kind = RequirementKind::min_silence,
-                          .partition = &spec.coordination.partitions[partition_],
-                          .silence_of = &layers.layers_of,
-                          .lost = has_then ? &sets_.lost() : nullptr,
-                          .ends_after_silence = has_then,
-                          .number_stride = sets_.number_stride()},
-                         layers, cell, state);
+    DelayExplanation::Silence found{.steps = sets_.silence().steps[at(cell)],
+                                    .is_lower_bound = sets_.silence().is_lower_bound(cell)};
+    found.actions = controller_.actions(silence_policies(results_.spec()).front(), partition_, cell, 0);
+    if (found.steps >= 0 && sets_.silence().is_bounded(cell)) found.path = silent_counterexample(cell, state);
     return found;
   }
 
@@ -205,7 +190,7 @@ class Explainer {
 }  // namespace
 
 MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition, std::int64_t cell) {
-  constexpr double kBytesOfNumber = 1100;  // of a step of the way out, as it is found and told
+  constexpr double kBytesOfNumber = 1100;  // of a step of a counterexample, as it is found and written
   MemoryDemand demand = controller_demand(results, false);
   // Neighbours may be so many that all posts are computed once more.
   demand.once += FileSets::bytes(results) + abstraction_bytes(results);

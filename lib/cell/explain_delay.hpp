@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "answers/counterexample/result_path.hpp"
 #include "answers/one_cell/explain_context.hpp"
-#include "answers/requirements/result_requirement.hpp"
 #include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "results/results_reader.hpp"
@@ -21,7 +21,7 @@ struct DelayExplanation {
   bool is_lower_bound = false;  ///< `max_delay` ended the iteration before
   bool is_over = false;         ///< a goal that ends the task is reached there
   /// A shortest way out of S on which each class picks from its projection of C(x) as long as that is in K
-  /// (find_escape()); none where the delay has no known end.
+  /// (find_counterexample()); none where the delay has no known end.
   std::optional<ResultPath> path;
   // The members below are set only in K.
   std::int64_t together = 0;               ///< |C(x)|

@@ -80,7 +80,7 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
 
 /// The policy of the delays, with the one that is asked for, or else all that need not be asked for.
 std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, const SimulationOptions& options) {
-  const std::string asked = options.blind ? "blind" : options.silent ? "silence" : "";
+  const std::string asked = options.blind ? kBlindKind.name : options.silent ? kSilenceKind.name : "";
   std::vector<AnswerPolicy> policies = answer_policies(spec);
   std::erase_if(policies, [&, first = policies.front().delay](const AnswerPolicy& policy) {
     const bool is_left = asked.empty() ? policy.is_on_request : policy.name != asked;

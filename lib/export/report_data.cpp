@@ -85,7 +85,7 @@ Json ways_json(const ResultsReader& results) {
     way["requirement"] = requirement.name;
     way["partition"] = partition ? Json(*partition) : Json();
     const auto& phase = requirement.path->phase;
-    way["independent"] = std::count(phase.begin(), phase.end(), EscapePhase::independent);
+    way["independent"] = std::count(phase.begin(), phase.end(), PathPhase::independent);
     way["cells"] = Json::array();
     for (const std::uint64_t cell : requirement.path->cell)
       way["cells"].push_back(index_of(results.grid(), static_cast<std::int64_t>(cell)));

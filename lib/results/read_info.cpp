@@ -79,7 +79,7 @@ std::int64_t best_cell(const ResultsReader& results, const AnswerPolicy& policy,
   const bool is_finite = sizes.layer_sizes.size() > 2;
   if (sizes.truncated() || (!is_finite && sizes.layer_sizes.back() == 0)) return -1;
   return first_largest(results.grid(), [&](const CellBlock& block) {
-    std::vector<std::int32_t> steps = results.values(policy.layered(), p, block);
+    std::vector<std::int32_t> steps = results.values(policy.kind->layered, p, block);
     for (std::int32_t& value : steps) {
       if (!is_finite && value != kUnbounded) value = -1;
     }

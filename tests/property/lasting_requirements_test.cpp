@@ -133,19 +133,19 @@ void expect_run(const Lasting& all, const ResultPath& path) {
 void expect_together(const Lasting& all, const ResultPath& path) {
   const std::int32_t arrival = all.goal.arrival[path.cell.front()];
   for (std::size_t s = 0; s < path.steps(); ++s) {
-    RC_ASSERT(path.phase[s] == EscapePhase::together);
+    RC_ASSERT(path.phase[s] == PathPhase::together);
     RC_ASSERT(all.plain.controller[path.cell[s]][at(input_of(all.abstraction, path, s))]);
   }
   const bool stays = path.samples() > path.steps();
   if (arrival != INT32_MAX) {
     const auto outside = std::ranges::count_if(path.cell, [&](std::uint64_t x) { return !all.in_goal[x]; });
     RC_CLASSIFY(all.is_stay() && outside + 1 < std::ssize(path.cell), "in the goal, and out of it again");
-    RC_ASSERT(path.end == EscapeEnd::arrived);
+    RC_ASSERT(path.end == PathEnd::arrived);
     RC_ASSERT((all.is_stay() ? outside : static_cast<std::int64_t>(path.steps())) == arrival);
     if (stays) RC_ASSERT(all.goal.arrival[path.cell.back()] == 0);
     return;
   }
-  RC_ASSERT(path.end == EscapeEnd::never_arrives);
+  RC_ASSERT(path.end == PathEnd::never_arrives);
   for (const std::uint64_t x : path.cell) RC_ASSERT(all.goal.arrival[x] == INT32_MAX);
   const std::size_t last = path.steps() - 1;
   RC_CLASSIFY(!stays, "through a safe side");
@@ -169,11 +169,11 @@ void expect_approach(const Lasting& all, const RequirementSpec& asked, const Res
   RC_CLASSIFY(all.in_goal[path.cell.front()], "from the goal");
   RC_ASSERT(path.steps() == at(delay + 1));
   for (std::size_t s = 0; s < path.steps(); ++s) {
-    RC_ASSERT(path.phase[s] == EscapePhase::approaching);
+    RC_ASSERT(path.phase[s] == PathPhase::approaching);
     RC_ASSERT(all.value(asked, path.cell[s]) == delay - static_cast<std::int32_t>(s));
     RC_ASSERT(all.is_independent(p, path.cell[s], input_of(all.abstraction, path, s)));
   }
-  if (path.end != EscapeEnd::time_lost) return;
+  if (path.end != PathEnd::time_lost) return;
   const std::size_t x = path.cell[path.steps() - 1];
   if (path.samples() == path.steps()) {
     RC_ASSERT(all.leaves_through_safe_side(x, input_of(all.abstraction, path, path.steps() - 1)));

@@ -113,17 +113,17 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
   for (std::size_t s = 0; s < path.steps(); ++s) {
     const auto x = static_cast<std::int64_t>(path.cell[s]);
     const std::int64_t u = input_of(both.abstraction, path, s);
-    RC_ASSERT(both.plain.invariant[at(x)] == (path.phase[s] == EscapePhase::independent));
-    if (path.phase[s] == EscapePhase::independent) {
+    RC_ASSERT(both.plain.invariant[at(x)] == (path.phase[s] == PathPhase::independent));
+    if (path.phase[s] == PathPhase::independent) {
       ++independent;
-      RC_CLASSIFY(path.end == EscapeEnd::not_allowed, "ends with what is forbidden");
+      RC_CLASSIFY(path.end == PathEnd::not_allowed, "ends with what is forbidden");
       RC_ASSERT(is_independent_choice(both, at(*asked.partition), x, u));
     }
     if (s + 1 == path.samples()) {
       const bool is_forbidden = !both.plain.permitted[at(x)][at(u)];
-      RC_ASSERT(is_forbidden == (path.end == EscapeEnd::not_allowed));
-      RC_ASSERT(is_forbidden || path.end == EscapeEnd::left_domain ||
-                path.end == EscapeEnd::unsafe_between_samples);
+      RC_ASSERT(is_forbidden == (path.end == PathEnd::not_allowed));
+      RC_ASSERT(is_forbidden || path.end == PathEnd::left_domain ||
+                path.end == PathEnd::unsafe_between_samples);
       // Posts that are only blocked by what happens on the way do not end with the domain's edge.
       RC_ASSERT(is_forbidden || !both.abstraction.tubes.empty() || !post_cells(both.abstraction, x, u));
       continue;
@@ -137,7 +137,7 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
   RC_ASSERT(independent == static_cast<std::size_t>(std::max(delay + 1, 0)));
   const std::size_t evasive = path.steps() - independent;
   const bool left_at_once = path.samples() == independent;
-  const bool stuck = path.end == EscapeEnd::no_allowed_action;
+  const bool stuck = path.end == PathEnd::no_allowed_action;
   if (!left_at_once) {
     const std::int32_t time = both.plain.collision_time[path.cell[independent]];
     RC_ASSERT(evasive + (stuck ? 1 : 0) == static_cast<std::size_t>(time));
@@ -151,7 +151,7 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
     return is_last ? both.plain.collision_time[at(y)] : both.delay(asked, at(y));
   };
   expect_followed(both.spec, both.abstraction, path, value);
-  if (path.end == EscapeEnd::outside_safe_set)
+  if (path.end == PathEnd::outside_safe_set)
     RC_ASSERT(!both.safe.test(static_cast<std::int64_t>(path.cell.back())));
   if (asked.kind != RequirementKind::min_delay) return;
   const std::size_t p = at(*asked.partition);
@@ -169,11 +169,11 @@ void expect_silent_path(const Both& both, const RequirementSpec& asked, const Re
   for (std::size_t s = 0; s < path.steps(); ++s) {
     const std::size_t x = path.cell[s];
     const auto u = at(input_of(both.abstraction, path, s));
-    RC_ASSERT((told.silence[x] >= 0) == (path.phase[s] == EscapePhase::silent));
-    if (path.phase[s] == EscapePhase::silent) RC_ASSERT(told.actions[x][u]);
-    if (path.phase[s] == EscapePhase::silent && s < at(silence))
+    RC_ASSERT((told.silence[x] >= 0) == (path.phase[s] == PathPhase::silent));
+    if (path.phase[s] == PathPhase::silent) RC_ASSERT(told.actions[x][u]);
+    if (path.phase[s] == PathPhase::silent && s < at(silence))
       RC_ASSERT(told.silence[path.cell[s + 1]] == silence - 1 - static_cast<std::int32_t>(s));
-    if (path.phase[s] == EscapePhase::afterwards) RC_ASSERT(both.told->then[x][u]);
+    if (path.phase[s] == PathPhase::afterwards) RC_ASSERT(both.told->then[x][u]);
   }
   RC_ASSERT((path.seen != 0) == (path.steps() > 0));
   RC_ASSERT(path.seen <= 0 || path.seen > silence);

@@ -81,6 +81,7 @@ CLAIMED = (
     "answers/field_source.hpp",
     "answers/step_codes.hpp",
     "answers/layers/stored_partition.hpp",
+    "answers/counterexample/result_path.hpp",
     "answers/requirements/result_requirement.hpp",
 )
 ROOMS_OF_CHECKS = ("base", "numeric", "expression", "spec", "model")

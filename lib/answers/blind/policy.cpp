@@ -95,7 +95,8 @@ std::vector<std::string> silent_tables(const ProblemSpec& spec, const PartitionS
 /// everything.
 std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
   if (!has_limited_sight(spec)) return {};
-  return {{.name = "blind",
+  return {{.name = kBlindKind.name,
+           .kind = &kBlindKind,
            .words = "blind",
            .gain = "own observations",
            .headline = "with own observations only",

@@ -43,7 +43,8 @@ std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
   const std::string where_of_no_use =
       is_reached_once ? "cannot be forced, or is reached" : "cannot be forced";
   return {
-      {.name = "approach",
+      {.name = kApproachKind.name,
+       .kind = &kApproachKind,
        .words = "approach",
        .gain = "loses no time",
        .delay = paths::kApproachDelay,

@@ -15,7 +15,8 @@ class DelayPolicy : public CellPolicy {
 
 /// Agents who coordinate choose from C(x), silent agents from IND_C(x), for as many steps as the delay.
 std::vector<AnswerPolicy> layer_policies(const ProblemSpec& /*spec*/) {
-  return {{.words = "actions",
+  return {{.kind = &kDelayKind,
+           .words = "actions",
            .delay = paths::kDelay,
            .trigger = paths::kTrigger,
            .make = [](const PolicyContext& /*context*/) -> std::unique_ptr<CellPolicy> {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/countdown/kinds.hpp"
 #include "answers/one_cell/cell_posts.hpp"
 #include "model/input_class.hpp"
 #include "spec/spec_types.hpp"
@@ -73,6 +74,7 @@ struct AnswerPolicy {
   /// Key of its group in JSON, and part of names: "approach"; empty: the policy of the delays, which holds
   /// everywhere.
   std::string name = {};
+  const CountdownKind* kind = nullptr;  ///< whose layers say for how many steps it holds
   std::string words = {};  ///< "actions", "approach": before " of CLASS"
   std::string gain = {};   ///< what silent agents gain by it: "loses no time"; of policies with a name
   /// Of policies that answer how long silence is safe, other than that of the delays: after "3 steps of
@@ -112,10 +114,6 @@ struct AnswerPolicy {
   HeaderComments header = {};
 
   [[nodiscard]] const std::string& countdown() const { return trigger.empty() ? delay : trigger; }
-  /// The path of the steps whose sizes of layers are stored.
-  [[nodiscard]] const std::string& layered() const { return is_on_request ? countdown() : delay; }
-  /// What the paths of these sizes begin with.
-  [[nodiscard]] std::string sizes() const { return name.empty() ? "/" : "/" + name + "_"; }
 };
 
 }  // namespace coordreq

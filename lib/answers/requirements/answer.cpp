@@ -15,7 +15,7 @@
 namespace coordreq {
 namespace {
 
-const char* end_word(EscapeEnd end) {
+const char* end_word(PathEnd end) {
   constexpr std::array<const char*, 11> kWords{
       "outside_safe_set",  "left_domain",     "unsafe_between_samples",
       "no_allowed_action", "arrived",         "never_arrives",
@@ -24,7 +24,7 @@ const char* end_word(EscapeEnd end) {
   return kWords[static_cast<std::size_t>(end)];
 }
 
-const char* phase_word(EscapePhase phase) {
+const char* phase_word(PathPhase phase) {
   constexpr std::array<const char*, 6> kWords{"independent", "evasive", "together",
                                               "approaching", "silent",  "afterwards"};
   return kWords[static_cast<std::size_t>(phase)];
@@ -86,7 +86,7 @@ Json step_json(const ResultPath& path, std::size_t step, RequirementKind kind, c
 Json counterexample_json(const ResultRequirement& result, RequirementKind kind, const ProblemSpec& spec) {
   Json json;
   if (result.path) {
-    json = story_json(*result.path, kind, spec);
+    json = path_json(*result.path, kind, spec);
     if (traits(kind).is_probability) put_risk(json["end_sample"], traits(kind).value, result.risk);
     return json;
   }
@@ -106,10 +106,10 @@ namespace {
 /// The number of steps for which the grid proves that the system stays in the set in which agents go on as
 /// they are, or else in S.
 std::int64_t proven_steps(const ResultPath& path) {
-  if (path.phase.front() != EscapePhase::afterwards)
+  if (path.phase.front() != PathPhase::afterwards)
     return path.delay.front() < 0 ? path.collision_time.front() : path.delay.front();
   // A step for which agents have no action leaves the set, too.
-  return static_cast<std::int64_t>(path.steps()) + (path.end == EscapeEnd::no_silent_action ? 1 : 0);
+  return static_cast<std::int64_t>(path.steps()) + (path.end == PathEnd::no_silent_action ? 1 : 0);
 }
 
 /// "regions", if there are requirements: refuses a region that meets no cell.
@@ -191,7 +191,7 @@ const char* delay_word(std::int32_t delay) {
                                       : "steps";
 }
 
-Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec) {
+Json path_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec) {
   Json json;
   json["state"] = state_json(path, 0, spec);
   json["steps"] = Json::array();

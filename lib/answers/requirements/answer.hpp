@@ -18,7 +18,7 @@ struct RequirementVerdicts {
 [[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
                                     const ProblemSpec& spec);
 /// The counterexample of a requirement of this kind, step by step.
-[[nodiscard]] Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec);
+[[nodiscard]] Json path_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec);
 /// A delay as in `/delay`: the number of steps, else null.
 [[nodiscard]] Json delay_json(std::int32_t delay);
 /// "steps", "unbounded", "not_invariant", "not_safe" or "goal_cannot_be_forced".

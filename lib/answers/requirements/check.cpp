@@ -9,7 +9,7 @@
 
 #include "answers/checking/answer_check.hpp"
 #include "answers/checking/claimed_values.hpp"
-#include "answers/requirements/check_path.hpp"
+#include "answers/counterexample/check_path.hpp"
 #include "answers/requirements/check_region.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
@@ -177,7 +177,7 @@ class RequirementChecker {
 
   /// The step at which the system itself leaves is an observation, but cannot be before the proven one.
   void check_seen(const ResultPath& path, std::int32_t value) {
-    if (is_followed(asked_.kind, path) != (path.seen != ResultPath::kNotFollowed))
+    if ((is_followed(asked_.kind) && path.steps() > 0) != (path.seen != ResultPath::kNotFollowed))
       return wrong("a nominal simulation where none is made, or none where one is");
     if (path.seen <= 0) return;
     const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();

@@ -174,7 +174,7 @@ void add_path_values(const ResultPath& path, std::size_t requirement, FieldValue
   values.lengths[counterexample_path(requirement, "step")] = path.steps();
   set("input", ElementType::float64, path.input);
   std::vector<std::uint8_t> phases;
-  for (const EscapePhase phase : path.phase) phases.push_back(static_cast<std::uint8_t>(phase));
+  for (const PathPhase phase : path.phase) phases.push_back(static_cast<std::uint8_t>(phase));
   set("phase", ElementType::uint8, std::move(phases));
 }
 

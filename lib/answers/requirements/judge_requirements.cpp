@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "answers/blind/answer.hpp"
+#include "answers/counterexample/counterexample.hpp"
 #include "answers/goal/answer.hpp"
+#include "answers/goal/arrival.hpp"
 #include "answers/goal/showing_order.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
 #include "answers/requirements/risk_limit.hpp"
 #include "answers/risk/answer.hpp"
@@ -107,37 +108,89 @@ class Judge {
   }
 
   [[nodiscard]] ResultPath path_from(std::int64_t cell, const RequirementSpec& requirement) const {
-    if (requirement.kind == RequirementKind::max_risk) {
-      EscapePath alone;
-      alone.cells = {cell};
-      alone.end = EscapeEnd::too_risky;
-      return result_of(alone, context_, asked_, number_stride_);
-    }
-    EscapeSets sets{.context = &context_,
-                    .invariance = &answers_.get<Invariance>(),
-                    .kind = requirement.kind,
-                    .number_stride = number_stride_};
-    if (is_of_goal(requirement)) sets.goal = answers_.find<Goal>();
-    if (showing_order_) sets.showing_order = &*showing_order_;
+    CounterexampleProblem problem{.context = &context_,
+                                  .invariant = &answers_.get<Invariance>().invariant,
+                                  .collision_time = steps_from(*controller_.levels),
+                                  .value = [this](std::int64_t x) { return asked_.value_of(x); },
+                                  .number_stride = number_stride_};
     if (requirement.partition) {
       const auto p = static_cast<std::size_t>(*requirement.partition);
-      sets.classes = input_classes(context_.spec, context_.abstraction->inputs,
-                                   context_.spec.coordination.partitions[p]);
-      sets.layers_of = &answers_.get<PartitionLayers>().partitions[p].layers_of;
-      sets.approach_of = &asked_.layers->layers_of;
-      if (requirement.kind == RequirementKind::min_silence) {
-        sets.partition = &context_.spec.coordination.partitions[p];
-        sets.silence_of = &asked_.layers->layers_of;
-        if (context_.spec.silence->has_then()) sets.lost = &answers_.get<Silence>().lost;
-      }
-      if (requirement.kind == RequirementKind::min_blind_delay) {
-        sets.blind_delay_of = &asked_.layers->layers_of;
-        sets.blind_countdown_of = &blind_layers(answers_, p).layers_of;
-      }
+      problem.partition = &context_.spec.coordination.partitions[p];
     }
-    ResultPath path = result_of(find_escape(sets, cell), context_, asked_, number_stride_);
-    if (is_followed(requirement.kind, path)) path.seen = follow_escape(sets, cell);
+    if (requirement.kind == RequirementKind::min_silence) {
+      problem.inside = silent_phase(steps_from(asked_.layers->layers_of), nullptr).holds;
+    } else if (is_followed(requirement.kind)) {
+      problem.inside = [&set = *problem.invariant](std::int64_t x) { return set.test(x); };
+    }
+    if (is_of_goal(requirement)) {
+      problem.arrival = [this, &set = *problem.invariant](std::int64_t y) {
+        return set.test(y) ? arrival_at(*asked_.nearness, y) : -1;
+      };
+      if (showing_order_) problem.showing_order = steps_from(*showing_order_);
+    }
+    problem.phases = phases(cell, requirement, problem);
+    ResultPath path = find_counterexample(problem, cell);
+    if (requirement.kind == RequirementKind::max_risk) path.end = PathEnd::too_risky;
     return path;
+  }
+
+  /// How agents choose on a path from a cell.
+  [[nodiscard]] std::vector<CounterexamplePhase> phases(std::int64_t cell, const RequirementSpec& requirement,
+                                                        const CounterexampleProblem& problem) const {
+    const CounterexamplePhase evasive = evasive_phase(problem);
+    const bool is_invariant = problem.invariant->test(cell);
+    switch (requirement.kind) {
+      case RequirementKind::max_risk:
+        return {};
+      case RequirementKind::min_silence:
+        return silent_phases(problem);
+      case RequirementKind::min_blind_delay:
+        return {blind_phase(requirement, problem), evasive};
+      case RequirementKind::max_arrival:
+        if (is_invariant) return {together()};
+        return {evasive};
+      case RequirementKind::min_approach_delay:
+        if (is_invariant && !answers_.get<Goal>().winning.test(cell)) return {together()};
+        return approach_phases(requirement, problem);
+      default:
+        if (!requirement.partition) return {evasive};
+        return {independent_phase(problem, steps_from(asked_.layers->layers_of)), evasive};
+    }
+  }
+
+  [[nodiscard]] static CounterexamplePhase together() {
+    return {.choices = PathPhase::together, .holds = [](std::int64_t /*cell*/) { return true; }, .steps = {}};
+  }
+
+  [[nodiscard]] std::vector<CounterexamplePhase> silent_phases(const CounterexampleProblem& problem) const {
+    const StepsFrom silence = steps_from(asked_.layers->layers_of);
+    if (!context_.spec.silence->has_then())
+      return {silent_phase(silence, problem.collision_time), evasive_phase(problem)};
+    const StepsFrom lost = steps_from(answers_.get<Silence>().lost);
+    return {silent_phase(silence, lost),
+            {.choices = PathPhase::afterwards, .holds = evasive_phase(problem).holds, .steps = lost}};
+  }
+
+  [[nodiscard]] CounterexamplePhase blind_phase(const RequirementSpec& requirement,
+                                                const CounterexampleProblem& problem) const {
+    const auto p = static_cast<std::size_t>(*requirement.partition);
+    const StepsFrom countdown = steps_from(blind_layers(answers_, p).layers_of);
+    const StepsFrom seen = steps_from(answers_.get<PartitionLayers>().partitions[p].layers_of);
+    CounterexamplePhase phase = independent_phase(problem, countdown);
+    phase.first = steps_from(asked_.layers->layers_of);
+    phase.has_no_action = [countdown, seen](std::int64_t x) { return countdown(x) == 1 && seen(x) > 1; };
+    return phase;
+  }
+
+  [[nodiscard]] std::vector<CounterexamplePhase> approach_phases(const RequirementSpec& requirement,
+                                                                 const CounterexampleProblem& problem) const {
+    const auto p = static_cast<std::size_t>(*requirement.partition);
+    const StepsFrom delay = steps_from(answers_.get<PartitionLayers>().partitions[p].layers_of);
+    return {{.choices = PathPhase::approaching,
+             .holds = [&away = answers_.get<Goal>().away](std::int64_t x) { return away.test(x); },
+             .steps = steps_from(asked_.layers->layers_of)},
+            independent_phase(problem, delay),
+            evasive_phase(problem)};
   }
 
   const Answers& answers_;

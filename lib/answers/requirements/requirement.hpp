@@ -53,7 +53,7 @@ struct CellVerdict {
 
 /// The verdict over the rows of all processes. Together.
 /// @param region over the same grid as the levels
-/// @param number_stride as EscapeSets::number_stride
+/// @param number_stride as CounterexampleProblem::number_stride
 [[nodiscard]] CellVerdict judge_cells(const CellSet& region, const UniformGrid& grid,
                                       const CellRequirement& requirement,
                                       const std::vector<std::int64_t>& number_stride, ThreadTeam& team);

@@ -27,7 +27,7 @@ ResultPath read_path(const FieldSource& source, std::size_t requirement) {
   if (source.has(path("step"))) {
     result.input = source.numbers(path("input"));
     for (const std::int64_t phase : source.integers(path("phase")))
-      result.phase.push_back(static_cast<EscapePhase>(phase));
+      result.phase.push_back(static_cast<PathPhase>(phase));
   }
   const std::size_t samples = result.samples(), steps = result.steps();
   if (steps != samples && steps + 1 != samples) {
@@ -49,10 +49,9 @@ void take_risk(const RequirementSpec& asked, double risk, const FieldSource& sou
 
 }  // namespace
 
-bool is_followed(RequirementKind kind, const ResultPath& path) {
-  const bool is_alike = kind == RequirementKind::min_delay || kind == RequirementKind::invariant ||
-                        kind == RequirementKind::min_silence;
-  return is_alike && path.steps() > 0;
+bool is_followed(RequirementKind kind) {
+  return kind == RequirementKind::min_delay || kind == RequirementKind::invariant ||
+         kind == RequirementKind::min_silence;
 }
 
 std::string counterexample_path(const std::string& name) {
@@ -95,7 +94,7 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
     requirement.path = read_path(source, r);
     if (requirement.is_risk)
       requirement.path->delay.assign(requirement.path->samples(), requirement.least_delay);
-    requirement.path->end = static_cast<EscapeEnd>(ends[r] - 1);
+    requirement.path->end = static_cast<PathEnd>(ends[r] - 1);
     requirement.path->left_side = side_of_number(left[r]);
     requirement.path->seen = static_cast<std::int32_t>(seen[r]);
   }

@@ -38,7 +38,8 @@ std::unique_ptr<CellPolicy> make_policy(const PolicyContext& context) {
 /// (contract, section 9). None if the spec does not say what silent agents do.
 std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
   if (!spec.silence) return {};
-  return {{.name = "silence",
+  return {{.name = kSilenceKind.name,
+           .kind = &kSilenceKind,
            .words = "silent",
            .gain = "safe by the rule",
            .headline = "by the communication-loss rule",

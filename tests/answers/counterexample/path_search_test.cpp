@@ -1,6 +1,6 @@
 // Ways through a tree of equal choices, some of which the system itself can follow.
 
-#include "answers/requirements/escape_search.hpp"
+#include "answers/counterexample/path_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,18 +18,18 @@ class Tree {
   Tree(std::vector<std::string> followed, std::vector<std::string> whole)
       : followed_(std::move(followed)), whole_(std::move(whole)) {}
 
-  [[nodiscard]] std::optional<FollowedPlace> place() const {
+  [[nodiscard]] std::optional<FollowedState> place() const {
     if (!is_followed(way_)) return std::nullopt;
     const auto met = joins_.find(way_);
     const std::string name = met == joins_.end() ? way_ : met->second;
-    FollowedPlace place{.cell = static_cast<std::int64_t>(std::hash<std::string>()(name) >> 1),
-                        .way = 0,
+    FollowedState place{.cell = static_cast<std::int64_t>(std::hash<std::string>()(name) >> 1),
+                        .phase = 0,
                         .state = {},
                         .steps = way_.size()};
     ways_[{place.steps, place.cell}] = way_;
     return place;
   }
-  void go_to(const FollowedPlace& place) { way_ = ways_.at({place.steps, place.cell}); }
+  void go_to(const FollowedState& place) { way_ = ways_.at({place.steps, place.cell}); }
   std::int64_t step(std::int64_t number) {
     ++steps_;
     way_ += static_cast<char>('a' + number);
@@ -58,28 +58,28 @@ class Tree {
 };
 
 std::string found(Tree& tree, std::int64_t work = 1000) {
-  EscapeSearch search(work);
+  PathSearch search(work);
   std::string way;
   for (const std::int64_t number : search.find(tree)) way += static_cast<char>('a' + number);
   return way;
 }
 
-TEST(EscapeSearch, TakesTheLongestWayEvenIfAnotherOneComesFirst) {
+TEST(PathSearch, TakesTheLongestWayEvenIfAnotherOneComesFirst) {
   Tree tree({"aab", "aaa", "aba", "abba", "b"}, {});
   EXPECT_EQ(found(tree), "abba");
 }
 
-TEST(EscapeSearch, TakesTheFirstOfTheLongest) {
+TEST(PathSearch, TakesTheFirstOfTheLongest) {
   Tree tree({"aa", "ab", "bb", "ba"}, {});
   EXPECT_EQ(found(tree), "aa");
 }
 
-TEST(EscapeSearch, IsContentWithAWayToTheEnd) {
+TEST(PathSearch, IsContentWithAWayToTheEnd) {
   Tree tree({"aa", "ba", "bbbb"}, {"ba"});
   EXPECT_EQ(found(tree), "ba");
 }
 
-TEST(EscapeSearch, LooksAtAPlaceOnce) {
+TEST(PathSearch, LooksAtAPlaceOnce) {
   Tree once({"aaa", "aab", "baa", "bab"}, {});
   once.join("ba", "aa");
   Tree twice({"aaa", "aab", "baa", "bab"}, {});
@@ -87,7 +87,7 @@ TEST(EscapeSearch, LooksAtAPlaceOnce) {
   EXPECT_LT(once.steps(), twice.steps());
 }
 
-TEST(EscapeSearch, TakesTheLongestSoFarWhenItsWorkIsDone) {
+TEST(PathSearch, TakesTheLongestSoFarWhenItsWorkIsDone) {
   Tree tree({"aab", "aaa", "aba", "abba", "b"}, {});
   EXPECT_EQ(found(tree, 4), "aaa");
   EXPECT_EQ(found(tree, 0), "");

@@ -1,4 +1,4 @@
-#include "answers/requirements/real_run.hpp"
+#include "answers/counterexample/nominal_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ Rational whole_power(unsigned long base, unsigned long exponent) {
 }
 
 /// Its numbers are longer than those that are kept exact, and no double is near it.
-TEST(RealRun, AStateBeyondAllDoublesIsFollowedAsWell) {
+TEST(NominalRun, AStateBeyondAllDoublesIsFollowedAsWell) {
   const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "far",
     "states": [{"name": "x", "lower": 0, "upper": 4, "step": 1}],
     "inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
@@ -24,10 +24,10 @@ TEST(RealRun, AStateBeyondAllDoublesIsFollowedAsWell) {
                                      "far");
   ThreadTeam team(1);
   const Abstraction abstraction = build_abstraction(spec, team);
-  RealRun run(spec, abstraction);
+  NominalRun run(spec, abstraction);
   const Rational far = whole_power(10, 400) + 1 / whole_power(3, 3000);
   run.start(std::vector<Rational>{far});
-  const RealRun::Place place = run.after(0, 0);
+  const NominalRun::Place place = run.after(0, 0);
   EXPECT_TRUE(place.is_known);
   EXPECT_EQ(place.kind, Location::Kind::beyond);
 }

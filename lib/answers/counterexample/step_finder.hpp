@@ -6,43 +6,40 @@
 #include <optional>
 #include <vector>
 
+#include "answers/counterexample/counterexample.hpp"
+#include "answers/counterexample/nominal_run.hpp"
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/cell_posts.hpp"
-#include "answers/requirements/escape_path.hpp"
-#include "answers/requirements/real_run.hpp"
-#include "engine/level_map.hpp"
 #include "engine/tube_sets.hpp"
 
 namespace coordreq {
 
-/// A joint input, its post, and the level of the worst cell in the post.
-struct EscapeChoice {
+/// A joint input, its post, and the steps from the worst cell in the post.
+struct StepChoice {
   std::int64_t joint_input = 0;
-  std::int64_t level = INT64_MAX;
+  std::int64_t steps = INT64_MAX;
   CellPost post;
   bool is_forbidden = false;
   bool has_more = false;  ///< there are later equal joint inputs that the system itself can follow, too
 };
 
-/// Finds the steps of an escape, one cell after the other.
-class EscapeSteps {
+/// Finds the steps of a counterexample, one cell after the other.
+class StepFinder {
  public:
   using IsWanted = std::function<bool(std::int64_t)>;  ///< of a joint input, of a cell
-  /// Instead of a level to look for: the least level that occurs.
+  /// Instead of a number of steps to look for: the least that occurs.
   static constexpr std::int64_t kLeast = -1;
 
   /// @pre unchecked: all outlive this object.
-  EscapeSteps(const EscapeSets& sets, CellPosts& posts, AdmissibleInputs& inputs, RealRun& real)
-      : sets_(sets), posts_(posts), inputs_(inputs), real_(real), tubes_(sets.context->tubes()) {}
+  StepFinder(const CounterexampleProblem& problem, CellPosts& posts, AdmissibleInputs& inputs,
+             NominalRun& real)
+      : problem_(problem), posts_(posts), inputs_(inputs), real_(real), tubes_(problem.context->tubes()) {}
 
-  /// The level of a cell, INT64_MAX if it is never lost.
-  [[nodiscard]] static std::int64_t level_of(const LevelMap& levels, std::int64_t cell);
-
-  /// A candidate whose worst successor has the wanted level: of those with which the system itself reaches
-  /// that level, too, number `number`; if there are none, the lowest-numbered candidate.
-  [[nodiscard]] std::optional<EscapeChoice> find(std::int64_t cell, const LevelMap& levels,
-                                                 std::int64_t target, const IsWanted& is_candidate,
-                                                 std::int64_t number);
+  /// A candidate from whose worst successor the wanted number of steps is left: of those with which the
+  /// system itself comes to such a cell, too, number `number`; if there are none, the lowest-numbered
+  /// candidate.
+  [[nodiscard]] std::optional<StepChoice> find(std::int64_t cell, const StepsFrom& steps, std::int64_t target,
+                                               const IsWanted& is_candidate, std::int64_t number);
   /// A wanted cell of a post: the cell of the system itself after the step, else the lowest-numbered;
   /// negative: there is none.
   [[nodiscard]] std::int64_t next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,
@@ -56,14 +53,14 @@ class EscapeSteps {
  private:
   using Known = std::map<std::vector<IndexRange>, std::int64_t>;
 
-  [[nodiscard]] std::int64_t worst_level(const CellPost& post, const LevelMap& levels, Known& known) const;
-  [[nodiscard]] bool follows(std::int64_t cell, const EscapeChoice& choice, const LevelMap& levels);
+  [[nodiscard]] std::int64_t least_steps(const CellPost& post, const StepsFrom& steps, Known& known) const;
+  [[nodiscard]] bool follows(std::int64_t cell, const StepChoice& choice, const StepsFrom& steps);
   [[nodiscard]] std::int64_t real_cell(std::int64_t cell, const CellPost& post, std::int64_t u);
 
-  const EscapeSets& sets_;
+  const CounterexampleProblem& problem_;
   CellPosts& posts_;
   AdmissibleInputs& inputs_;
-  RealRun& real_;
+  NominalRun& real_;
   TubeSets tubes_;
 };
 

@@ -17,10 +17,10 @@ namespace coordreq {
 /// its range, and without measurement errors.
 ///
 /// Each of several processes follows it; only the owner of a cell can evaluate memories there.
-class RealRun {
+class NominalRun {
  public:
   /// @pre unchecked: the arguments outlive this object. @param abstraction its dimensions in any order
-  RealRun(const SystemSpec& spec, const Abstraction& abstraction);
+  NominalRun(const SystemSpec& spec, const Abstraction& abstraction);
 
   /// Starts at a state. @param state [state of the spec]
   void start(std::vector<Rational> state);

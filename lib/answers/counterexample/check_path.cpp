@@ -1,4 +1,4 @@
-#include "answers/requirements/check_path.hpp"
+#include "answers/counterexample/check_path.hpp"
 
 #include <fmt/format.h>
 
@@ -89,22 +89,22 @@ void PathChecker::check_step(std::size_t step) {
   if (path_->phase[step] != phase_of(step)) return wrong(step, "another phase than that of the cell");
   if (!cell_.is_safe()) return wrong(step, "continues after it has left the safe set");
   switch (path_->phase[step]) {
-    case EscapePhase::independent:
+    case PathPhase::independent:
       check_independent(step, *u);
       break;
-    case EscapePhase::evasive:
+    case PathPhase::evasive:
       check_evasive(step, *u);
       break;
-    case EscapePhase::together:
+    case PathPhase::together:
       check_together(step, *u);
       break;
-    case EscapePhase::approaching:
+    case PathPhase::approaching:
       check_approaching(step, *u);
       break;
-    case EscapePhase::silent:
+    case PathPhase::silent:
       check_silent(step, *u);
       break;
-    case EscapePhase::afterwards:
+    case PathPhase::afterwards:
       check_afterwards(step, *u);
   }
   if (step + 1 < path_->samples()) {
@@ -115,17 +115,17 @@ void PathChecker::check_step(std::size_t step) {
 }
 
 /// The phase of agents in the present cell. Agents that have reached the goal go on as without a goal.
-EscapePhase PathChecker::phase_of(std::size_t step) const {
-  if (silent_ && value_of_(cell_.at()) >= 0) return EscapePhase::silent;
-  if (afterwards_) return EscapePhase::afterwards;
-  if (invariant_[cell_.at()] == 0) return EscapePhase::evasive;
-  if (!progress_) return EscapePhase::independent;
-  if (asked_.kind == RequirementKind::max_arrival) return EscapePhase::together;
+PathPhase PathChecker::phase_of(std::size_t step) const {
+  if (silent_ && value_of_(cell_.at()) >= 0) return PathPhase::silent;
+  if (afterwards_) return PathPhase::afterwards;
+  if (invariant_[cell_.at()] == 0) return PathPhase::evasive;
+  if (!progress_) return PathPhase::independent;
+  if (asked_.kind == RequirementKind::max_arrival) return PathPhase::together;
   const std::int32_t arrival = progress_->arrival(cell_.at());
-  if (step == 0 && arrival == kUnbounded) return EscapePhase::together;
-  const EscapePhase before = step == 0 ? EscapePhase::approaching : path_->phase[step - 1];
-  const bool is_over = before == EscapePhase::approaching && arrival == 0 && !goal_;
-  return is_over ? EscapePhase::independent : before;
+  if (step == 0 && arrival == kUnbounded) return PathPhase::together;
+  const PathPhase before = step == 0 ? PathPhase::approaching : path_->phase[step - 1];
+  const bool is_over = before == PathPhase::approaching && arrival == 0 && !goal_;
+  return is_over ? PathPhase::independent : before;
 }
 
 void PathChecker::check_together(std::size_t step, std::int64_t u) {
@@ -214,21 +214,21 @@ void PathChecker::check_next(std::size_t step, std::int64_t u) {
 /// Checks a last action that leads to no cell.
 void PathChecker::check_last_step(std::int64_t u) {
   const std::size_t step = path_->steps() - 1;
-  if ((path_->end == EscapeEnd::not_allowed) != cell_.is_forbidden(u))
+  if ((path_->end == PathEnd::not_allowed) != cell_.is_forbidden(u))
     return differs(step, cell_.is_forbidden(u) ? "the last joint input is forbidden, but the end is another"
                                                : "the last joint input is not forbidden");
-  if (path_->end == EscapeEnd::not_allowed) return;
+  if (path_->end == PathEnd::not_allowed) return;
   // The end says whether there is an action.
-  if (path_->end == EscapeEnd::no_common_action || path_->end == EscapeEnd::no_silent_action) return;
-  if (path_->end == EscapeEnd::never_arrives || path_->end == EscapeEnd::time_lost) {
+  if (path_->end == PathEnd::no_common_action || path_->end == PathEnd::no_silent_action) return;
+  if (path_->end == PathEnd::never_arrives || path_->end == PathEnd::time_lost) {
     if (!progress_ || !progress_->leaves_through_safe_side(cell_, u))
       differs(step, "the last action does not leave through a safe side");
     return;
   }
-  if (path_->end >= EscapeEnd::arrived) return;  // the post has left through a `goal` side
-  if (path_->end == EscapeEnd::unsafe_between_samples) {
+  if (path_->end >= PathEnd::arrived) return;  // the post has left through a `goal` side
+  if (path_->end == PathEnd::unsafe_between_samples) {
     if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the motion to the next sample is safe");
-  } else if (path_->end != EscapeEnd::left_domain || !path_->left_side) {
+  } else if (path_->end != PathEnd::left_domain || !path_->left_side) {
     wrong(step, "the last action leads nowhere, but the end is another");
   } else if (!leaves_domain(u, *path_->left_side)) {
     differs(step, "the last action does not lead out of the domain there");
@@ -240,28 +240,28 @@ void PathChecker::check_end() {
   const auto last = static_cast<std::int64_t>(path_->cell.back());
   cell_.go_to(last);
   const bool safe = cell_.is_safe();
-  if (path_->end == EscapeEnd::outside_safe_set) {
+  if (path_->end == PathEnd::outside_safe_set) {
     if (!stays || safe) wrong(path_->samples(), "the last cell is in the safe set");
-  } else if (path_->end == EscapeEnd::no_allowed_action) {
+  } else if (path_->end == PathEnd::no_allowed_action) {
     bool any = false;
     for (std::int64_t u = 0; safe && u < context_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
     if (!stays || !safe || any) wrong(path_->samples(), "in the last cell some joint input is allowed");
-  } else if (path_->end == EscapeEnd::too_risky || asked_.kind == RequirementKind::max_risk) {
+  } else if (path_->end == PathEnd::too_risky || asked_.kind == RequirementKind::max_risk) {
     const bool is_alone = path_->samples() == 1 && path_->steps() == 0;
-    if (!is_alone || path_->end != EscapeEnd::too_risky || asked_.kind != RequirementKind::max_risk)
+    if (!is_alone || path_->end != PathEnd::too_risky || asked_.kind != RequirementKind::max_risk)
       wrong(path_->samples(), "a risk is that of one cell");
-  } else if (path_->end == EscapeEnd::no_common_action) {
+  } else if (path_->end == PathEnd::no_common_action) {
     if (!stays || path_->steps() == 0 || !ends_in_sight(static_cast<std::size_t>(last)))
       wrong(path_->samples(), "in the last cell all classes may have an action");
-  } else if (path_->end == EscapeEnd::no_silent_action) {
+  } else if (path_->end == PathEnd::no_silent_action) {
     if (!stays || !safe || !ends_without_rule(static_cast<std::size_t>(last)))
       wrong(path_->samples(), "in the last cell agents may have an action");
-  } else if (path_->end >= EscapeEnd::arrived && path_->end != EscapeEnd::not_allowed) {
+  } else if (path_->end >= PathEnd::arrived && path_->end != PathEnd::not_allowed) {
     check_goal_end();
   } else if (stays) {
     wrong(path_->samples(), "the end is another");
   }
-  if (path_->left_side.has_value() != (path_->end == EscapeEnd::left_domain))
+  if (path_->left_side.has_value() != (path_->end == PathEnd::left_domain))
     wrong(path_->samples(), "a side that belongs to another end");
 }
 
@@ -275,18 +275,18 @@ bool PathChecker::ends_in_sight(std::size_t cell) const {
 
 void PathChecker::check_goal_end() {
   const bool stays = path_->samples() > path_->steps();
-  const bool on_the_way = !path_->phase.empty() && path_->phase.back() >= EscapePhase::together;
+  const bool on_the_way = !path_->phase.empty() && path_->phase.back() >= PathPhase::together;
   if (!progress_ || !on_the_way)
     return wrong(path_->samples(), "an end of a path to the goal, which it is not");
   const auto last = path_->cell.end() - 1;
-  if (path_->end == EscapeEnd::arrived && stays && progress_->arrival(*last) != 0)
+  if (path_->end == PathEnd::arrived && stays && progress_->arrival(*last) != 0)
     wrong(path_->samples(), "the last cell is not in the goal");
-  if (path_->end == EscapeEnd::never_arrives && stays) {
+  if (path_->end == PathEnd::never_arrives && stays) {
     const auto first = std::find(path_->cell.begin(), last, *last);
     if (first == last) wrong(path_->samples(), "the last cell does not repeat");
     if (first != last && goal_) check_cycle(static_cast<std::size_t>(first - path_->cell.begin()));
   }
-  if (path_->end == EscapeEnd::time_lost && path_->phase.back() != EscapePhase::approaching)
+  if (path_->end == PathEnd::time_lost && path_->phase.back() != PathPhase::approaching)
     wrong(path_->samples(), "only independent choices can lose time");
 }
 

@@ -31,7 +31,7 @@ class PathChecker {
  private:
   void check_sample(std::size_t sample);
   void check_step(std::size_t step);
-  [[nodiscard]] EscapePhase phase_of(std::size_t step) const;
+  [[nodiscard]] PathPhase phase_of(std::size_t step) const;
   void check_together(std::size_t step, std::int64_t u);
   void check_approaching(std::size_t step, std::int64_t u);
   void check_independent(std::size_t step, std::int64_t u);

@@ -1,4 +1,4 @@
-#include "answers/requirements/real_run.hpp"
+#include "answers/counterexample/nominal_run.hpp"
 
 #include <cmath>
 #include <utility>
@@ -11,7 +11,7 @@
 namespace coordreq {
 namespace {
 
-/// Exact numbers grow from step to step: shortens those with more bits than a story needs.
+/// Exact numbers grow from step to step: shortens those with more bits than a counterexample needs.
 Rational shortened(const Rational& value) {
   constexpr std::size_t kBits = 4096;
   const bool is_long =
@@ -23,7 +23,7 @@ Rational shortened(const Rational& value) {
 
 }  // namespace
 
-RealRun::RealRun(const SystemSpec& spec, const Abstraction& abstraction)
+NominalRun::NominalRun(const SystemSpec& spec, const Abstraction& abstraction)
     : spec_(spec),
       abstraction_(abstraction),
       dynamics_(spec),
@@ -35,17 +35,17 @@ RealRun::RealRun(const SystemSpec& spec, const Abstraction& abstraction)
   }
 }
 
-const GridDimension& RealRun::dimension(std::size_t state) const {
+const GridDimension& NominalRun::dimension(std::size_t state) const {
   return abstraction_.grid[abstraction_.grid.dimension_of(state)];
 }
 
-void RealRun::start(std::vector<Rational> state) {
+void NominalRun::start(std::vector<Rational> state) {
   for (std::size_t i = 0; i < state.size(); ++i) slots_[spec_.state_slot(i)] = state[i];
   for (auto& of_state : known_) of_state.clear();
   state_ = std::move(state);
 }
 
-void RealRun::start(std::int64_t cell) {
+void NominalRun::start(std::int64_t cell) {
   const UniformGrid& grid = abstraction_.grid;
   std::vector<Rational> state(grid.size());
   for (std::size_t d = 0; d < grid.size(); ++d) state[grid.state(d)] = grid[d].point(grid.index(cell, d));
@@ -53,7 +53,7 @@ void RealRun::start(std::int64_t cell) {
 }
 
 /// The next value of a state that is no memory.
-std::optional<Rational> RealRun::next(std::size_t state, std::int64_t u) {
+std::optional<Rational> NominalRun::next(std::size_t state, std::int64_t u) {
   const InputSpace& inputs = abstraction_.inputs;
   std::int64_t key = 0;
   for (const std::int32_t j : dynamics_.dependencies(state).inputs)
@@ -67,7 +67,7 @@ std::optional<Rational> RealRun::next(std::size_t state, std::int64_t u) {
   return entry->second;
 }
 
-RealRun::Place RealRun::after(std::int64_t cell, std::int64_t u) {
+NominalRun::Place NominalRun::after(std::int64_t cell, std::int64_t u) {
   REQUIRES(is_followed());
   const UniformGrid& grid = abstraction_.grid;
   std::vector<Rational> found(grid.size());
@@ -85,7 +85,7 @@ RealRun::Place RealRun::after(std::int64_t cell, std::int64_t u) {
   return {.is_known = true, .kind = location.kind, .cell = location.cell};
 }
 
-void RealRun::advance(std::int64_t u, const Place& place) {
+void NominalRun::advance(std::int64_t u, const Place& place) {
   if (!place.is_known || place.kind != Location::Kind::cell) return stop();
   std::vector<Rational> reached(spec_.states.size());
   for (std::size_t i = 0; i < reached.size(); ++i) {

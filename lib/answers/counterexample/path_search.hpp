@@ -10,28 +10,28 @@
 
 namespace coordreq {
 
-/// A state of an escape that the system itself has followed so far.
-struct FollowedPlace {
+/// A state of a path that the system itself has followed so far.
+struct FollowedState {
   std::int64_t cell = 0;
-  std::int64_t way = 0;         ///< how the escape goes on: EscapeRun::Way
+  std::size_t phase = 0;        ///< number of the phase of the next step
   std::vector<Rational> state;  ///< of the system itself
   std::size_t steps = 0;        ///< number of steps from the start
   std::int64_t number = 0;      ///< of the joint input to take next, among equal ones
 };
 
-/// Searches, of equally short escapes, the one that the system itself follows longest, of these the one of
+/// Searches, of equally short paths, the one that the system itself follows longest, of these the one of
 /// lowest numbers: depth first over the joint inputs of equal steps that the system can follow. A place that
-/// was met before is not visited again. When the allowed work is used up the longest escape so far is taken,
+/// was met before is not visited again. When the allowed work is used up the longest path so far is taken,
 /// which is never shorter than one found step by step.
-class EscapeSearch {
+class PathSearch {
  public:
   /// [step] Which of the equal joint inputs is taken; in steps after these, the first one.
   using Choices = std::vector<std::int64_t>;
 
   /// @param work number of looks at joint inputs that all searches of this object may take
-  explicit EscapeSearch(std::int64_t work) : work_(work) {}
+  explicit PathSearch(std::int64_t work) : work_(work) {}
 
-  /// @param walk an escape from its present place, with these functions: place(), where the system itself is,
+  /// @param walk a path from its present place, with these functions: place(), where the system itself is,
   ///   nothing if it is followed no longer; go_to(place); step(number), one more step: the looks it took;
   ///   has_more(), whether there are equal ones behind that number; is_whole(), whether it has been followed
   ///   to its end
@@ -39,9 +39,9 @@ class EscapeSearch {
   template <class Walk>
   [[nodiscard]] Choices find(Walk& walk) {
     Choices taken, longest;
-    std::vector<FollowedPlace> open;
-    std::set<std::tuple<std::size_t, std::int64_t, std::int64_t, std::vector<Rational>>> known;
-    std::optional<FollowedPlace> here = walk.place();
+    std::vector<FollowedState> open;
+    std::set<std::tuple<std::size_t, std::size_t, std::int64_t, std::vector<Rational>>> known;
+    std::optional<FollowedState> here = walk.place();
     for (;;) {
       while (here && work_ > 0) {
         const std::int64_t number = here->number;
@@ -53,7 +53,7 @@ class EscapeSearch {
         if (walk.is_whole()) return taken.push_back(number), taken;
         here = walk.place();
         if (here) taken.push_back(number);
-        if (here && !known.emplace(here->steps, here->way, here->cell, here->state).second) here.reset();
+        if (here && !known.emplace(here->steps, here->phase, here->cell, here->state).second) here.reset();
       }
       if (taken.size() > longest.size()) longest = taken;
       if (open.empty() || work_ <= 0) return longest;
