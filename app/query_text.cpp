@@ -136,7 +136,8 @@ class AnswerText {
   [[nodiscard]] std::string best_text(std::size_t p) const {
     if (!is_looked_at(form_.results)) return "";
     const AnswerPolicy policy = headline_policies(form_.spec()).front();
-    const StoredPartition sizes = read_partition_values(form_.spec(), form_.results, policy.kind->prefix())[p];
+    const StoredPartition sizes =
+        read_partition_values(form_.spec(), form_.results, policy.kind->prefix())[p];
     const Json state = best_state_json(form_.results, policy, p, sizes);
     if (state.is_null()) return "";
     const std::size_t layers = sizes.layer_sizes.size();

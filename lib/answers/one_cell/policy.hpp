@@ -75,8 +75,8 @@ struct AnswerPolicy {
   /// everywhere.
   std::string name = {};
   const CountdownKind* kind = nullptr;  ///< whose layers say for how many steps it holds
-  std::string words = {};  ///< "actions", "approach": before " of CLASS"
-  std::string gain = {};   ///< what silent agents gain by it: "loses no time"; of policies with a name
+  std::string words = {};               ///< "actions", "approach": before " of CLASS"
+  std::string gain = {};  ///< what silent agents gain by it: "loses no time"; of policies with a name
   /// Of policies that answer how long silence is safe, other than that of the delays: after "3 steps of
   /// silence" in the sentence that says so. The last of them in the plan is what the spec asks for first.
   std::string headline = {};
