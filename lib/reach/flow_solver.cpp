@@ -30,6 +30,14 @@ constexpr std::int64_t kFaceWork = 16;
 /// A state that decays faster than this within the step counts as damped without bound.
 constexpr double kStrongDecay = 8.0;
 
+bool is_always_smooth(const FlowSystem& system, const FlowTape& tape) {
+  return system.seams.empty() &&
+         std::none_of(system.stops.begin(), system.stops.end(),
+                      [](const FlowSystem::Limit& limit) { return limit.below || limit.above; }) &&
+         std::none_of(tape.values.begin(), tape.values.end(),
+                      [&tape](std::uint32_t i) { return tape.nodes[i].is_choice(); });
+}
+
 }  // namespace
 
 ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
@@ -58,7 +66,8 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       damped_(n_),
       none_held_(n_),
       tolerance_(n_),
-      allowed_excess_(n_) {
+      allowed_excess_(n_),
+      always_smooth_(is_always_smooth(system_, tape_)) {
   alone_ = Deviation(n_);
   for (Along& along : along_) along.start = alone_;
   result_.end.resize(n_);
@@ -91,15 +100,23 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
   std::uint32_t left = kParts;
   std::uint32_t parts = kParts;
   int successes = 0;
+  bool known_to_fail = false;
   tries_ = 0;
   while (left > 0) {
     parts = std::min(parts, left);
     ++tries_;
+    ++all_tries_;
     const double share = static_cast<double>(parts) / kParts;
-    const auto failure = try_step(period_ * Interval{share, share}, parts > kSmallWithoutRemainder);
+    const bool divisible = parts > kSmallWithoutRemainder;
+    const auto failure = known_to_fail && divisible ? std::optional<FlowFailure>(FlowFailure{})
+                                                    : try_step(period_ * Interval{share, share}, divisible);
+    known_to_fail = false;
     if (!failure) {
       left -= parts;
-      if (++successes % kPatience == 0) parts *= 2;
+      if (++successes % kPatience == 0) {
+        known_to_fail = left > parts && twice_is_too_long();
+        parts *= 2;
+      }
       const bool hopeless = !patient && tries_ > kHopeTries && left / parts > kHope * most_steps;
       gave_up_ = left > 0 && (tries_ >= most_steps || hopeless);
       if (!hopeless) finish_step(left == 0);
@@ -118,6 +135,13 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
   }
   result_.end = now_;
   return true;
+}
+
+/// Whether a step twice as long as the last one is sure to have no usable remainder. Others may be taken
+/// without one, where they meet a kink or a limit.
+bool ValidatedFlow::Solver::twice_is_too_long() {
+  const FlowStep& step = steps_[step_count_ - 1];
+  return always_smooth_ && step.smooth && !taylor_.could_be_doubled(step.duration, tolerance_);
 }
 
 std::int64_t ValidatedFlow::Solver::extra_steps() const {

@@ -54,6 +54,7 @@ class ValidatedFlow::Solver {
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
   [[nodiscard]] std::int64_t extra_steps() const;
+  [[nodiscard]] std::int64_t steps() const { return all_tries_ + extra_steps(); }
   [[nodiscard]] const FlowSystem& system() const { return system_; }
   [[nodiscard]] const Interval& period() const { return period_; }
 
@@ -65,6 +66,7 @@ class ValidatedFlow::Solver {
   bool run_steps(std::size_t most_steps, bool patient);
   std::optional<FlowFailure> try_step(const Interval& duration, bool divisible);
   std::optional<FlowFailure> try_step_on_seam(const Interval& duration);
+  [[nodiscard]] bool twice_is_too_long();
   void set_tolerance();
   void find_damping(const Interval& duration);
   bool append_sensitivity(const Interval& duration, bool divisible);
@@ -122,6 +124,7 @@ class ValidatedFlow::Solver {
   std::vector<FlowStep> steps_;
   std::size_t step_count_ = 0;  ///< since the start, or since the last restart
   std::size_t tries_ = 0;
+  std::int64_t all_tries_ = 0;  ///< of all boxes
   std::vector<FollowedSolution> solutions_;
   std::size_t solution_count_ = 0;
   std::vector<std::vector<End>> wanted_;  ///< lower and upper extreme of every state: where it comes from
@@ -152,6 +155,7 @@ class ValidatedFlow::Solver {
   double fastest_growth_ = 0.0;
   std::size_t stiffest_ = 0;
   bool gave_up_ = false;
+  bool always_smooth_;         ///< no step meets a kink, a limit or a seam
   bool is_part_ = false;       ///< the box is divided further where that pays
   bool all_free_ = true;       ///< no state may run into a limit in this step
   bool ever_stopped_ = false;  ///< in an earlier one it might

@@ -85,6 +85,11 @@ std::int64_t PeriodicFlow::extra_steps() const {
   return plain_.extra_steps() + wound;
 }
 
+std::int64_t PeriodicFlow::steps() const {
+  const std::int64_t wound = windings_.empty() ? 0 : followed_->flow.steps() + anywhere_->flow.steps();
+  return plain_.steps() + wound;
+}
+
 bool PeriodicFlow::keeps_apart(std::span<const Interval> box) {
   const bool inside = std::all_of(windings_.begin(), windings_.end(), [&](const Winding& winding) {
     const Interval& range = box[winding.state];

@@ -39,6 +39,7 @@ class PeriodicFlow {
 
   /// See ValidatedFlow.
   [[nodiscard]] std::int64_t extra_steps() const;
+  [[nodiscard]] std::int64_t steps() const;
 
   /// About.
   [[nodiscard]] double period() const { return period_; }

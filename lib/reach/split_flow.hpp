@@ -33,6 +33,8 @@ class SplitFlow {
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
   /// Boxes and parts of boxes that were enclosed so far.
   [[nodiscard]] std::int64_t parts() const { return wholes_ + division_.enclosed(); }
+  /// See ValidatedFlow.
+  [[nodiscard]] std::int64_t steps() const { return flow_.steps(); }
 
  private:
   [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> box);

@@ -50,6 +50,8 @@ class StateEnclosure {
 
   /// Boxes and parts of boxes that were enclosed so far.
   [[nodiscard]] std::int64_t parts() const { return map_ ? map_->parts() : flow_->parts(); }
+  /// The work of that: sub-steps of flows, parts of maps.
+  [[nodiscard]] std::int64_t work() const { return map_ ? map_->parts() : flow_->steps(); }
 
   /// The reason why the equation at fault is undefined in the last enclose(); empty if not known. @pre it is
   [[nodiscard]] std::string reason(const Result& result) const;

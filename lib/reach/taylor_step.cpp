@@ -9,6 +9,10 @@ namespace {
 constexpr std::size_t kLargestOrder = 12;
 constexpr std::size_t kLargestAffineOrder = 24;
 
+/// A remainder that seems so many times as wide as half of the tolerance is hopeless: tolerances grow with
+/// the box, by little.
+constexpr double kHopeless = 2.0;
+
 std::size_t largest_order(const FlowTape& tape) {
   return tape.affine ? kLargestAffineOrder : kLargestOrder;
 }
@@ -46,6 +50,20 @@ void TaylorStep::find_remainder(const Interval& duration, std::span<const double
       return;
     }
   }
+}
+
+bool TaylorStep::could_be_doubled(const Interval& duration, std::span<const double> tolerance) {
+  while (over_box_.order() < over_box_.largest_order()) over_box_.extend();
+  double power = 1.0;
+  for (std::size_t k = 1; k <= over_box_.largest_order(); ++k) {
+    power *= 2.0 * duration.lower;
+    if (k == 1) continue;
+    bool narrow = true;
+    for (std::size_t i = 0; i < dimension_; ++i)
+      narrow = narrow && power * over_box_.coefficient(0, i, k).radius <= kHopeless * tolerance[i];
+    if (narrow) return true;
+  }
+  return false;
 }
 
 /// A coefficient without a bound makes all that follow so.

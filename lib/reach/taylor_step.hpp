@@ -36,6 +36,9 @@ class TaylorStep {
   /// Finds the least order whose remainder is narrower than `tolerance` for every state, if there is one.
   void find_remainder(const Interval& duration, std::span<const double> tolerance,
                       TaylorRemainder& remainder);
+  /// Whether a step twice as long could have a remainder, by the coefficients over this one's box, which lies
+  /// in that of the longer step. @pre unchecked: as find_remainder(), which has found one
+  [[nodiscard]] bool could_be_doubled(const Interval& duration, std::span<const double> tolerance);
   /// Where the solutions are after the step that were taken along as number `along`. @pre unchecked: there is
   /// a remainder
   void advance_along(std::size_t along, const TaylorRemainder& remainder, std::span<Interval> state) const;

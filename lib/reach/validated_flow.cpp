@@ -33,6 +33,10 @@ std::int64_t ValidatedFlow::extra_steps() const {
   return solver_->extra_steps();
 }
 
+std::int64_t ValidatedFlow::steps() const {
+  return solver_->steps();
+}
+
 bool ValidatedFlow::keeps_apart(std::span<const Interval> box) {
   return solver_->keeps_apart(box);
 }

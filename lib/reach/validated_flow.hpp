@@ -73,6 +73,8 @@ class ValidatedFlow {
   /// The work since this object was made that the number of steps of a box does not limit: steps by faces,
   /// and sub-steps along solutions; in such sub-steps.
   [[nodiscard]] std::int64_t extra_steps() const;
+  /// All work since then: the sub-steps that were tried, and extra_steps().
+  [[nodiscard]] std::int64_t steps() const;
 
  private:
   class Solver;
