@@ -10,6 +10,7 @@
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
 #include "base/requires.hpp"
+#include "reach/enclosure_sample.hpp"
 #include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -24,6 +25,25 @@ bool has_few_posts(const Model& model) {
          !model.spec().controller.file;
 }
 
+/// Whether a sample of the boxes that are enclosed for all posts says that they take little.
+bool has_little_to_enclose(const Model& model) {
+  constexpr int kBoxes = 8;
+  constexpr double kMostWork = 1e5;  // some seconds
+  const auto of_all = [](const EnclosureSample& sample) {
+    return static_cast<double>(sample.work()) / kBoxes * sample.choices();
+  };
+  double work = 0;
+  for (const EnclosedGroup& group : enclosed_groups(model.spec(), model.shapes())) {
+    EnclosureSample sample(model.spec(), group);
+    for (int k = 0; k < kBoxes && sample.choices() > kBoxes; ++k) {
+      sample.enclose_next();
+      if (work + of_all(sample) > kMostWork) return false;
+    }
+    work += of_all(sample);
+  }
+  return true;
+}
+
 void add(Warnings more, Warnings& all) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -35,7 +55,7 @@ Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion
   Warnings all = advise_on_spec(model.spec());
   add(advise_on_bounds(model.spec()), all);
   add(advise_on_units(model.spec(), motion), all);
-  if (!has_few_posts(model)) {
+  if (!has_few_posts(model) || (posts > 0 && !has_little_to_enclose(model))) {
     if (posts > 0) add(look_ahead(model, posts, team), all);
     return all;
   }

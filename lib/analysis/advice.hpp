@@ -46,7 +46,8 @@ namespace coordreq {
 /// @param work takes what the trials did: `helpers/advice` with `trials` and `work`, about a nanosecond each
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, bool creeps, ThreadTeam& team, Json& work);
 
-/// All that is known without the answer: from all posts where they are few, else from some of them.
+/// All that is known without the answer: from all posts where they are few and take little work, by a
+/// sample, else from some of them.
 /// @param motion of the spec @param posts of look_ahead()
 /// @throws SpecError where the analysis does, as far as posts are looked at
 [[nodiscard]] Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion,

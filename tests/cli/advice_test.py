@@ -341,6 +341,17 @@ class Cases(Case):
             self.assertEqual([own["sum"] for own in report["states"]], [False, True, True])
             self.assertEqual(self.both(spec), expected)
 
+    def test_validate_does_not_enclose_what_takes_the_analysis_long(self):
+        h = {"name": "h", "lower": 0, "upper": 200, "step": 10, "outside": "saturate"}
+        states = [without_outside(dict(X, name="p")), dict(Y, name="q"), h]
+        # Enclosures take few steps, or hundreds each.
+        for rate, expected in ((1, [("blocked", "/states")]), (60, [])):
+            equations = {"p": "v*cos(h)", "q": "v*sin(h)", "h": f"{rate}*u"}
+            dynamics = {"time": "continuous", "period": 0.5, "unit": "s", "equations": equations}
+            spec = spec_with(states=states, dynamics=dynamics, safe="p <= 3", abstraction={"effort": 1})
+            found = self.warnings("validate", spec)
+            self.assertEqual([(own["kind"], own["place"]) for own in found if own["kind"] == "blocked"], expected)
+
     def test_sides_at_the_default_that_block(self):
         spec = spec_with(states=[without_outside(X), dict(Y, outside={"above": "unsafe"})], safe="x <= 3")
         # x below 0 with u = -1 from 5 cells, and y with v = -1 from 4; above, x would leave from 4, which is not safe.
