@@ -42,10 +42,15 @@ COORDREQ_INLINE Lanes magnitude(Lanes a) {
 COORDREQ_INLINE Mask nonzero(Balls a) {
   return (Lanes)((Mask)a.middle | (Mask)a.radius) != Lanes{};
 }
+/// Each lane of a mask has all its bits or none.
 COORDREQ_INLINE bool any(Mask mask) {
+#if defined(__AVX__) && COORDREQ_VECTOR_BYTES == 32
+  return __builtin_ia32_movmskpd256((Lanes)mask) != 0;
+#else
   long long all = 0;
   for (size_t lane = 0; lane < kWidth; ++lane) all |= mask[lane];
   return all != 0;
+#endif
 }
 
 COORDREQ_INLINE Balls negated(Balls a) {
