@@ -85,9 +85,20 @@ class TableBuilder {
       slots[spec_.input_slot(at(i))] = inputs_[at(i)].values[static_cast<std::size_t>(k)];
       base += k * table_.input_stride[at(i)];
     }
-    const bool has_other_tubes = tube_ != nullptr && limits_ == Limits::obeyed;
-    if (!has_other_tubes && dynamics_.has_limit(state_) && fill_stopped(slots, base) && tube_ == nullptr)
-      return true;
+    if (dynamics_.has_limit(state_)) {
+      const std::optional<StoppedRow> stopped = find_stopped(slots);
+      if (tube_ != nullptr && limits_ == Limits::obeyed) {
+        if (!stopped || !tells_tubes(*stopped)) return std::nullopt;
+        fill_ends(*stopped, base);
+        post_.fill(*tube_, base, [&](const auto& cell) { return between_ends(*stopped, cell).value(); });
+        return false;
+      }
+      if (stopped) {
+        fill_ends(*stopped, base);
+        if (tube_ == nullptr) return true;
+        narrow_tubes(*stopped, base);
+      }
+    }
     const std::optional<SampledRow> row = dynamics_.row(state_, slots, limits_);
     if (!row) return limits_ == Limits::ignored ? std::optional(false) : std::nullopt;
     AffinePost post = post_;
@@ -202,48 +213,67 @@ class TableBuilder {
     });
   }
 
-  /// Where limits hold integrators alone. @returns false if they do not
-  bool fill_stopped(const std::vector<Rational>& slots, std::int64_t base) {
-    if (spec_.dynamics.time == Time::discrete || grid_[state_].discrete) return false;
-    const std::optional<StoppedRow> row = stopped_row(spec_, grid_, dependencies_, state_, slots);
-    if (!row) return false;
+  /// The row where limits hold integrators alone.
+  [[nodiscard]] std::optional<StoppedRow> find_stopped(const std::vector<Rational>& slots) const {
+    if (spec_.dynamics.time == Time::discrete || grid_[state_].discrete) return std::nullopt;
+    return stopped_row(spec_, grid_, dependencies_, state_, slots);
+  }
+
+  void fill_ends(const StoppedRow& row, std::int64_t base) {
     const GridDimension& target = grid_[state_];
     post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
-      Rational lower = row->lower - target.measurement_error;
-      Rational upper = row->upper + target.measurement_error;
+      Rational lower = row.lower - target.measurement_error;
+      Rational upper = row.upper + target.measurement_error;
       bool attained = true;
       for (std::size_t j = 0; j < cell.size(); ++j) {
-        const StoppedRow::Part& part = row->parts[j][static_cast<std::size_t>(cell[j])];
+        const StoppedRow::Part& part = row.parts[j][static_cast<std::size_t>(cell[j])];
         lower += part.lower;
         upper += part.upper;
         attained = attained && part.attained;
       }
       return cells_meeting(target, spec_.abstraction.cells, lower, upper, attained);
     });
-    if (tube_ != nullptr && !target.periodic() && (row->is_stopped || row->rate)) narrow_tubes(*row, base);
-    return true;
+  }
+
+  /// Whether the state moves in one direction only, or is stopped itself, from all cells: then its ends tell
+  /// its tubes, and nothing has to be enclosed.
+  [[nodiscard]] bool tells_tubes(const StoppedRow& row) const {
+    if (grid_[state_].periodic()) return false;
+    if (row.is_stopped) return true;
+    if (!row.rate) return false;
+    Rational slowest = row.rate->first, fastest = row.rate->second;
+    for (const std::vector<StoppedRow::Part>& parts : row.parts) {
+      const auto by_slowest = [](const auto& a, const auto& b) { return a.slowest < b.slowest; };
+      const auto by_fastest = [](const auto& a, const auto& b) { return a.fastest < b.fastest; };
+      slowest += std::min_element(parts.begin(), parts.end(), by_slowest)->slowest;
+      fastest += std::max_element(parts.begin(), parts.end(), by_fastest)->fastest;
+    }
+    return slowest >= 0 || fastest <= 0;
+  }
+
+  void narrow_tubes(const StoppedRow& row, std::int64_t base) {
+    if (grid_[state_].periodic() || !(row.is_stopped || row.rate)) return;
+    post_.narrow(*tube_, base, [&](const auto& cell) { return between_ends(row, cell); });
   }
 
   /// A state that moves in one direction only is between its ends all the time, wherever limits stop others.
-  void narrow_tubes(const StoppedRow& row, std::int64_t base) {
+  [[nodiscard]] std::optional<IndexRange> between_ends(const StoppedRow& row,
+                                                       const std::vector<std::int64_t>& cell) const {
+    Rational lower = row.lower, upper = row.upper, slowest = 0, fastest = 0;
+    for (std::size_t j = 0; j < cell.size(); ++j) {
+      const StoppedRow::Part& part = row.parts[j][at(cell[j])];
+      lower += part.lower;
+      upper += part.upper;
+      slowest += part.slowest;
+      fastest += part.fastest;
+    }
+    const bool has_direction =
+        row.is_stopped || row.rate->first + slowest >= 0 || row.rate->second + fastest <= 0;
+    if (!has_direction) return std::nullopt;
     const auto& moving = dependencies_.moving;
     const auto own = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state_));
-    post_.narrow(*tube_, base, [&](const std::vector<std::int64_t>& cell) -> std::optional<IndexRange> {
-      Rational lower = row.lower, upper = row.upper, slowest = 0, fastest = 0;
-      for (std::size_t j = 0; j < cell.size(); ++j) {
-        const StoppedRow::Part& part = row.parts[j][at(cell[j])];
-        lower += part.lower;
-        upper += part.upper;
-        slowest += part.slowest;
-        fastest += part.fastest;
-      }
-      const bool has_direction =
-          row.is_stopped || row.rate->first + slowest >= 0 || row.rate->second + fastest <= 0;
-      if (!has_direction) return std::nullopt;
-      const Piece start =
-          post_.pieces_of(state_, cell[static_cast<std::size_t>(own - moving.begin())]).front();
-      return cells_covering(grid_[state_], std::min(start.lower, lower), std::max(start.upper, upper));
-    });
+    const Piece start = post_.pieces_of(state_, cell[static_cast<std::size_t>(own - moving.begin())]).front();
+    return cells_covering(grid_[state_], std::min(start.lower, lower), std::max(start.upper, upper));
   }
 
   void fill_points(const AffinePost& post, const SampledRow& row, const std::vector<Rational>& slots,

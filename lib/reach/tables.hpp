@@ -29,7 +29,8 @@ namespace coordreq {
 /// Fills the table of one state of an exactly solvable system: each post is the exact hull (or rounded
 /// outward where constants are irrational).
 /// @returns whether every post is exact; nothing if the dynamics are not affine for some choice of
-///   parameters and inputs (the table is then unspecified)
+///   parameters and inputs (the table is then unspecified). Where limits stop integrators alone, and tubes
+///   are asked for, false if the ends of motions tell all tubes, nothing if they do not
 /// @throws SpecError if a discrete state can leave its grid (naming state and input) or an equation is
 ///   undefined
 [[nodiscard]] std::optional<bool> build_affine_table(const SystemSpec& spec, const AffineDynamics& dynamics,

@@ -136,6 +136,28 @@ TEST(Tube, OfAStoppedStateEndsAtItsLimit) {
   EXPECT_EQ(a.raw_tube(1, 50 * 21 + 20, 2), (IndexRange{20, 20}));
 }
 
+TEST(Tube, ThatEndsTellIsNotWiderThanWithAnEnclosure) {
+  const std::string states =
+      kLine + R"(, {"name": "v", "lower": 0, "upper": 2, "step": 0.1, "outside": "stop"})";
+  // x rises, rises from some cells alone, falls.
+  for (const std::string motion : {"v", "v - 0.5", "v - 3"}) {
+    const SystemSpec spec = flow(states, R"("x": ")" + motion + R"(", "v": "u")", "half_open");
+    const AffineDynamics dynamics(spec);
+    const Abstraction told = test::build(spec);
+    ThreadTeam team(1);
+    EXPECT_FALSE(told.exact);
+    Abstraction enclosed = told;
+    for (std::size_t i = 0; i < 2; ++i) {
+      enclosed.tables[i] = {};
+      enclosed.tubes[i] = {};
+      build_enclosure_tables(spec, dynamics, enclosed, {i}, team);
+      EXPECT_EQ(told.tables[i].entries, enclosed.tables[i].entries);
+      EXPECT_EQ(told.tubes[i].entries, enclosed.tubes[i].entries);
+    }
+    EXPECT_EQ(build_affine_table(spec, dynamics, enclosed, 0, team).has_value(), motion != "v - 0.5");
+  }
+}
+
 TEST(Tube, IsCoveredByCellsAsWideAsTheMeasurementErrorMakesThem) {
   const std::string state = R"({"name": "x", "lower": 0, "upper": 9, "step": 1, "measurement_error": 0.25})";
   for (const std::string equation : {R"json("x": "u")json", R"json("x": "sin(u)/sin(1)")json"}) {
