@@ -1,5 +1,7 @@
 #include "cell/file_sets.hpp"
 
+#include <algorithm>
+
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/stored_partition.hpp"
 #include "answers/paths.hpp"

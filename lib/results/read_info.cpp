@@ -58,7 +58,8 @@ void add_axes(const ResultsReader& results, Json& info) {
 void add_best_states(const ResultsReader& results, Json& info) {
   if (!is_looked_at(results)) return;
   for (const AnswerPolicy& policy : headline_policies(results.spec())) {
-    const std::vector<StoredPartition> sizes = read_partition_values(results.spec(), results, policy.kind->prefix());
+    const std::vector<StoredPartition> sizes =
+        read_partition_values(results.spec(), results, policy.kind->prefix());
     for (std::size_t p = 0; p < sizes.size(); ++p) {
       Json& entry = info["partitions"][p];
       (policy.name.empty() ? entry : entry[policy.name])["best_state"] =
