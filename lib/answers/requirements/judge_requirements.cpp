@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "answers/blind/answer.hpp"
 #include "answers/counterexample/counterexample.hpp"
@@ -128,17 +129,16 @@ class Judge {
       };
       if (showing_order_) problem.showing_order = steps_from(*showing_order_);
     }
-    problem.phases = phases(cell, requirement, problem);
+    problem.phases = phases(requirement, problem);
     ResultPath path = find_counterexample(problem, cell);
     if (requirement.kind == RequirementKind::max_risk) path.end = PathEnd::too_risky;
     return path;
   }
 
-  /// How agents choose on a path from a cell.
-  [[nodiscard]] std::vector<CounterexamplePhase> phases(std::int64_t cell, const RequirementSpec& requirement,
+  /// How agents choose on a path. The same in all processes, of which each knows the sets in its rows alone.
+  [[nodiscard]] std::vector<CounterexamplePhase> phases(const RequirementSpec& requirement,
                                                         const CounterexampleProblem& problem) const {
     const CounterexamplePhase evasive = evasive_phase(problem);
-    const bool is_invariant = problem.invariant->test(cell);
     switch (requirement.kind) {
       case RequirementKind::max_risk:
         return {};
@@ -147,10 +147,8 @@ class Judge {
       case RequirementKind::min_blind_delay:
         return {blind_phase(requirement, problem), evasive};
       case RequirementKind::max_arrival:
-        if (is_invariant) return {together()};
-        return {evasive};
+        return {together([&set = *problem.invariant](std::int64_t x) { return set.test(x); }), evasive};
       case RequirementKind::min_approach_delay:
-        if (is_invariant && !answers_.get<Goal>().winning.test(cell)) return {together()};
         return approach_phases(requirement, problem);
       default:
         if (!requirement.partition) return {evasive};
@@ -158,8 +156,8 @@ class Judge {
     }
   }
 
-  [[nodiscard]] static CounterexamplePhase together() {
-    return {.choices = PathPhase::together, .holds = [](std::int64_t /*cell*/) { return true; }, .steps = {}};
+  [[nodiscard]] static CounterexamplePhase together(IsCell holds) {
+    return {.choices = PathPhase::together, .holds = std::move(holds), .steps = {}};
   }
 
   [[nodiscard]] std::vector<CounterexamplePhase> silent_phases(const CounterexampleProblem& problem) const {
@@ -186,8 +184,12 @@ class Judge {
                                                                  const CounterexampleProblem& problem) const {
     const auto p = static_cast<std::size_t>(*requirement.partition);
     const StepsFrom delay = steps_from(answers_.get<PartitionLayers>().partitions[p].layers_of);
-    return {{.choices = PathPhase::approaching,
-             .holds = [&away = answers_.get<Goal>().away](std::int64_t x) { return away.test(x); },
+    const Goal& goal = answers_.get<Goal>();
+    return {together([&set = *problem.invariant, &winning = goal.winning](std::int64_t x) {
+              return set.test(x) && !winning.test(x);
+            }),
+            {.choices = PathPhase::approaching,
+             .holds = [&away = goal.away](std::int64_t x) { return away.test(x); },
              .steps = steps_from(asked_.layers->layers_of)},
             independent_phase(problem, delay),
             evasive_phase(problem)};
