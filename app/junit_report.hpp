@@ -17,7 +17,7 @@ struct JunitSuite {
 };
 
 /// The requirements as a JUnit report, which CI systems show: a test suite for each analysis, a test case for
-/// each requirement, a failure with the story of the counterexample for one that fails. An analysis that
+/// each requirement, a failure with the counterexample for one that fails. An analysis that
 /// failed is a test case with an error.
 [[nodiscard]] std::string junit_text(const std::vector<JunitSuite>& suites);
 

@@ -26,12 +26,12 @@ std::string value_key(const Json& entry) {
 }
 
 std::string cell_failures(const Json& entry, const ProblemSpec& spec) {
-  const Json& story = entry["counterexample"];
-  const Json& first = story["steps"].empty() ? story["end_sample"] : story["steps"].front();
+  const Json& found = entry["counterexample"];
+  const Json& first = found["steps"].empty() ? found["end_sample"] : found["steps"].front();
   const auto failing = entry["failing"].get<std::int64_t>();
   return fmt::format(
       "{} of {} {}, the worst at {}: it {}", grouped(failing), cells(entry["cells"]),
-      failing == 1 ? "fails" : "fail", values_text(story["state"]),
+      failing == 1 ? "fails" : "fail", values_text(found["state"]),
       worst_text(entry["kind"], first[value_key(entry)], first[value_key(entry) + "_status"], spec));
 }
 

@@ -25,7 +25,7 @@ std::string requirements_of_file(const Json& info) {
     const Json& status = entry[key + "_status"];
     return status == "steps" ? duration(entry[key], info) : text_of(status);
   };
-  const auto story = [&info](const Json& entry) {
+  const auto counterexample = [&info](const Json& entry) {
     const Json& steps = entry["counterexample_steps"];
     return !steps.is_null() ? duration(steps, info) : entry["holds"] ? "-" : "outside the domain";
   };
@@ -38,7 +38,7 @@ std::string requirements_of_file(const Json& info) {
               {"cells", Align::right, [](const Json& entry) { return grouped(entry["cells"]); }},
               {"failing", Align::right, [](const Json& entry) { return grouped(entry["failing"]); }},
               {has_other_values(info) ? "worst" : "least delay", Align::left, least},
-              {"counterexample", Align::right, story}});
+              {"counterexample", Align::right, counterexample}});
 }
 
 }  // namespace coordreq

@@ -72,7 +72,7 @@ class Explainer {
     }
   }
 
-  [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const { return sets_.delays().steps[at(cell)]; }
+  [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const { return sets_.delays().at(cell); }
 
   /// A goal that ends the task is reached there.
   [[nodiscard]] bool is_over(std::int64_t cell) {
@@ -92,8 +92,8 @@ class Explainer {
     const FileSteps& silence = sets_.silence();
     CounterexampleProblem problem = sets_.problem(silence);
     if (results_.spec().silence->has_then()) {
-      problem.phases = {silent_phase(silence.layers(), [&steps = silence.steps](std::int64_t y) {
-        return steps[at(y)] >= 0 ? INT64_MAX : steps[at(y)] == kOutsideSafe ? 0 : 1;
+      problem.phases = {silent_phase(silence.layers(), [&silence](std::int64_t y) {
+        return silence.at(y) >= 0 ? INT64_MAX : silence.at(y) == kOutsideSafe ? 0 : 1;
       })};
     } else {
       problem.phases = {silent_phase(silence.layers(), problem.collision_time), evasive_phase(problem)};
@@ -103,7 +103,7 @@ class Explainer {
 
   [[nodiscard]] DelayExplanation::Silence explain_silence(std::int64_t cell,
                                                           const std::vector<Rational>& state) {
-    DelayExplanation::Silence found{.steps = sets_.silence().steps[at(cell)],
+    DelayExplanation::Silence found{.steps = sets_.silence().at(cell),
                                     .is_lower_bound = sets_.silence().is_lower_bound(cell)};
     found.actions = controller_.actions(silence_policies(results_.spec()).front(), partition_, cell, 0);
     if (found.steps >= 0 && sets_.silence().is_bounded(cell)) found.path = silent_counterexample(cell, state);

@@ -64,7 +64,8 @@ struct DelayExplanation {
                                           std::int64_t cell);
 /// @param cell its number in the spec's grid @param state in it
 /// @throws as FileSets and CellController
-/// Cost: that of reading the arrays of the partition and of the abstraction, and of the way out.
+/// Cost: that of the counterexample, of the abstraction, and of reading cells near the path and along the
+/// axes.
 [[nodiscard]] DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition,
                                              std::int64_t cell, const std::vector<Rational>& state,
                                              ThreadTeam& team);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,22 +13,33 @@
 
 namespace coordreq {
 
-/// A countdown of a results file, for all cells.
-struct FileSteps {
-  std::vector<std::int32_t> steps;  ///< [cell]
-  std::int32_t deepest = 0;         ///< where `max_delay` ended the iteration, else kUnbounded
+/// Steps of a results file, read where cells are asked for, and kept. Not thread-safe.
+class FileSteps {
+ public:
+  /// @pre unchecked: `results` outlive this object. @param partition nothing: the field is not over
+  /// partitions
+  FileSteps(const ResultsReader& results, const char* path, std::optional<std::size_t> partition);
+  /// Those that a kind of countdown has in a partition.
+  FileSteps(const ResultsReader& results, const CountdownKind& kind, std::size_t partition);
 
-  /// Whether it is not known how many more steps a cell has.
+  [[nodiscard]] std::int32_t at(std::int64_t cell) const;
+  /// Whether it is not known how many more steps a cell has, as `max_delay` ended the iteration.
   [[nodiscard]] bool is_lower_bound(std::int64_t cell) const;
   [[nodiscard]] bool is_bounded(std::int64_t cell) const;
   /// For how many steps cells are in layers: one more than in the file. @pre unchecked: this object outlives
   /// it
   [[nodiscard]] StepsFrom layers() const;
+
+ private:
+  const ResultsReader& results_;
+  std::string path_;
+  std::optional<std::size_t> partition_;
+  std::int32_t deepest_;                                  ///< where the iteration was ended, else kUnbounded
+  mutable std::vector<std::vector<std::int32_t>> pages_;  ///< so many cells each; empty: not read
 };
 
-/// The values of all cells of a results file, and the posts of its spec, to find counterexamples: S, K with
-/// its collision times, and the delays of one partition; and the silence of agents who follow rules, if the
-/// spec has any. States are in the order of the spec; there is no engine.
+/// What a results file has to find counterexamples in one partition, and the posts of its spec. States are in
+/// the order of the spec; there is no engine.
 class FileSets {
  public:
   /// Memory of an object, in bytes.
@@ -38,21 +50,18 @@ class FileSets {
 
   [[nodiscard]] const AnalysisContext& context() const { return context_; }
   [[nodiscard]] const FileSteps& delays() const { return delays_; }
-  /// Only if the spec has `silence`.
-  [[nodiscard]] const FileSteps& silence() const { return silence_; }
+  /// @pre the spec has `silence`
+  [[nodiscard]] const FileSteps& silence() const;
   /// A problem without phases, for values of these. @pre unchecked: this object outlives it
   [[nodiscard]] CounterexampleProblem problem(const FileSteps& values) const;
 
  private:
-  [[nodiscard]] FileSteps read_steps(const CountdownKind& kind) const;
-
   const ResultsReader& results_;
   std::size_t partition_;
   Model model_;
   AnalysisContext context_;
-  CellSet invariant_;
-  std::vector<std::int32_t> collision_time_;  ///< [cell]
-  FileSteps delays_, silence_;
+  FileSteps collision_time_, delays_;
+  std::optional<FileSteps> silence_;
 };
 
 }  // namespace coordreq

@@ -118,9 +118,13 @@ StepsFrom steps_from(const LevelMap& levels) {
   };
 }
 
+IsCell is_in(const CellSet& set) {
+  return [&set](std::int64_t cell) { return set.test(cell); };
+}
+
 CounterexamplePhase independent_phase(const CounterexampleProblem& problem, StepsFrom steps) {
   return {.choices = PathPhase::independent,
-          .holds = [&set = *problem.invariant](std::int64_t cell) { return set.test(cell); },
+          .holds = problem.invariant,
           .steps = std::move(steps),
           .after = problem.collision_time};
 }

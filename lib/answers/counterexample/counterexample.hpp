@@ -18,6 +18,8 @@ using IsCell = std::function<bool(std::int64_t cell)>;
 
 /// The levels of a map as steps. @pre unchecked: the map outlives it
 [[nodiscard]] StepsFrom steps_from(const LevelMap& levels);
+/// Whether cells are in a set. @pre unchecked: the set outlives it
+[[nodiscard]] IsCell is_in(const CellSet& set);
 
 /// A part of a counterexample in which agents choose alike, and a number of steps falls by one with each.
 struct CounterexamplePhase {
@@ -36,8 +38,8 @@ struct CounterexamplePhase {
 /// The inputs to find a counterexample.
 struct CounterexampleProblem {
   const AnalysisContext* context = nullptr;
-  const CellSet* invariant = nullptr;  ///< K
-  StepsFrom collision_time;            ///< 0 outside S
+  IsCell invariant;          ///< K
+  StepsFrom collision_time;  ///< 0 outside S
   /// The value by which a cell is judged, as in ResultPath::delay.
   std::function<std::int32_t(std::int64_t cell)> value;
   /// In this order. The path ends where the last one does; with none it is one cell.

@@ -9,7 +9,7 @@ namespace coordreq {
 PathFinder::PathFinder(const CounterexampleProblem& problem)
     : PathRun(problem),
       grid_(context_.abstraction->grid),
-      invariant_(grid_, [&set = *problem.invariant](std::int64_t cell) { return set.test(cell); }),
+      invariant_(grid_, problem.invariant),
       safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
       beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
       inputs_(context_.spec, posts_, members()),
@@ -33,7 +33,10 @@ bool PathFinder::add_step() {
   if (phase_ == problem_.phases.size()) return false;
   const CounterexamplePhase& phase = problem_.phases[phase_];
   if (phase.choices == PathPhase::together) return take_together();
-  if (phase.choices == PathPhase::approaching && phase.steps(cell) <= 1) return lose_time();
+  if (phase.choices == PathPhase::approaching && phase.steps(cell) <= 1) {
+    lose_time();
+    return false;
+  }
   return take_by(phase);
 }
 
@@ -46,7 +49,7 @@ const ClassChoices* PathFinder::choices_at(std::int64_t cell, PathPhase phase) {
                                                        : Rules::none;
   std::optional<ClassChoices>& choices = choices_.at(static_cast<std::size_t>(rules));
   if (!choices) choices.emplace(context_.spec, grid_, posts_.inputs(), problem_.partition->classes, rules);
-  const bool is_known = rules != Rules::then && problem_.invariant->test(cell);
+  const bool is_known = rules != Rules::then && problem_.invariant(cell);
   ClassChoices::Numbers joint = is_known ? inputs_.of(cell) : ClassChoices::Numbers();
   if (phase == PathPhase::approaching) joint = progress_.of(cell, joint);
   choices->go_to(cell, joint);
@@ -138,8 +141,8 @@ bool PathFinder::take_together() {
   return !comes_again;
 }
 
-/// The last step of agents who act alone before the goal: one without progress. @returns false
-bool PathFinder::lose_time() {
+/// The last step of agents who act alone before the goal: one without progress.
+void PathFinder::lose_time() {
   const std::int64_t cell = path_.cells.back();
   const ClassChoices* const choices = choices_at(cell, PathPhase::approaching);
   const std::int32_t most = progress_.limit(cell, inputs_.of(cell));
@@ -151,19 +154,15 @@ bool PathFinder::lose_time() {
     const bool is_blocked = is_forbidden || post.blocked != CellPost::Blocked::no;
     if (!is_blocked && progress_.worst(cell, u) <= most) continue;
     add_choice(u, PathPhase::approaching);
-    if (is_blocked) {
-      end_at_block(post, is_forbidden);
-      return false;
-    }
+    if (is_blocked) return end_at_block(post, is_forbidden);
     path_.end = PathEnd::time_lost;
     const std::int64_t next = steps_.next_cell(cell, post, u, [&](std::int64_t y) {
       const std::int32_t arrival = problem_.arrival(y);
       return arrival < 0 || arrival > most;
     });
     if (next >= 0) path_.cells.push_back(next);
-    return false;
+    return;
   }
-  return false;
 }
 
 void PathFinder::add_choice(std::int64_t u, PathPhase phase) {

@@ -23,7 +23,7 @@ class PathFinder : public PathRun {
   bool add_step() override;
   bool take_by(const CounterexamplePhase& phase);
   bool take_together();
-  bool lose_time();
+  void lose_time();
   bool take(const std::optional<StepChoice>& choice, const StepsFrom& steps, PathPhase phase);
   void add_choice(std::int64_t u, PathPhase phase);
   void end_at_block(const CellPost& post, bool is_forbidden);

@@ -14,7 +14,7 @@ struct RequirementVerdicts {
   std::vector<ResultRequirement> requirements;  ///< in the order of the spec
 };
 
-/// One requirement for the summary, with the story of its counterexample.
+/// One requirement for the summary, with its counterexample.
 [[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
                                     const ProblemSpec& spec);
 /// The counterexample of a requirement of this kind, step by step.

@@ -110,7 +110,7 @@ class Judge {
 
   [[nodiscard]] ResultPath path_from(std::int64_t cell, const RequirementSpec& requirement) const {
     CounterexampleProblem problem{.context = &context_,
-                                  .invariant = &answers_.get<Invariance>().invariant,
+                                  .invariant = is_in(answers_.get<Invariance>().invariant),
                                   .collision_time = steps_from(*controller_.levels),
                                   .value = [this](std::int64_t x) { return asked_.value_of(x); },
                                   .number_stride = number_stride_};
@@ -121,11 +121,11 @@ class Judge {
     if (requirement.kind == RequirementKind::min_silence) {
       problem.inside = silent_phase(steps_from(asked_.layers->layers_of), nullptr).holds;
     } else if (is_followed(requirement.kind)) {
-      problem.inside = [&set = *problem.invariant](std::int64_t x) { return set.test(x); };
+      problem.inside = problem.invariant;
     }
     if (is_of_goal(requirement)) {
-      problem.arrival = [this, &set = *problem.invariant](std::int64_t y) {
-        return set.test(y) ? arrival_at(*asked_.nearness, y) : -1;
+      problem.arrival = [this, is_invariant = problem.invariant](std::int64_t y) {
+        return is_invariant(y) ? arrival_at(*asked_.nearness, y) : -1;
       };
       if (showing_order_) problem.showing_order = steps_from(*showing_order_);
     }
@@ -147,7 +147,7 @@ class Judge {
       case RequirementKind::min_blind_delay:
         return {blind_phase(requirement, problem), evasive};
       case RequirementKind::max_arrival:
-        return {together([&set = *problem.invariant](std::int64_t x) { return set.test(x); }), evasive};
+        return {together(problem.invariant), evasive};
       case RequirementKind::min_approach_delay:
         return approach_phases(requirement, problem);
       default:
@@ -185,11 +185,11 @@ class Judge {
     const auto p = static_cast<std::size_t>(*requirement.partition);
     const StepsFrom delay = steps_from(answers_.get<PartitionLayers>().partitions[p].layers_of);
     const Goal& goal = answers_.get<Goal>();
-    return {together([&set = *problem.invariant, &winning = goal.winning](std::int64_t x) {
-              return set.test(x) && !winning.test(x);
+    return {together([is_invariant = problem.invariant, &winning = goal.winning](std::int64_t x) {
+              return is_invariant(x) && !winning.test(x);
             }),
             {.choices = PathPhase::approaching,
-             .holds = [&away = goal.away](std::int64_t x) { return away.test(x); },
+             .holds = is_in(goal.away),
              .steps = steps_from(asked_.layers->layers_of)},
             independent_phase(problem, delay),
             evasive_phase(problem)};
