@@ -85,7 +85,7 @@ std::vector<Compared> compared_fields(const Json& comparison, bool sets, const R
   std::vector<Compared> result;
   for (const Field& field : file.fields()) {
     const std::string key = key_of(field.path.substr(1));
-    if (field.shown.compared.empty() || !comparison.contains(key)) continue;
+    if (field.display.compared.empty() || !comparison.contains(key)) continue;
     const Json& found = comparison[key];
     if (found.contains("joined") == sets)
       result.push_back({field, found.is_array() ? found : Json::array({found})});
@@ -98,7 +98,7 @@ std::string sets_table(const std::vector<Compared>& sets) {
   table.add({"cells of the", "before", "after", "left", "joined"});
   for (const Compared& set : sets) {
     const Json& entry = set.found.front();
-    table.add({set.field.shown.compared, grouped(entry["before"]), grouped(entry["after"]),
+    table.add({set.field.display.compared, grouped(entry["before"]), grouped(entry["after"]),
                grouped(entry["left"]), grouped(entry["joined"])});
   }
   return table.text();
@@ -111,7 +111,7 @@ std::string axis_of(const Field& field) {
 
 /// "alone", or "alone (was: a|b)"; the words of a field without a leading axis.
 std::string name_of(const Json& entry, const Field& field) {
-  if (!entry.contains("name")) return field.shown.compared;
+  if (!entry.contains("name")) return field.display.compared;
   const Json& old = entry["name_before"];
   return line_of(entry["name"]) + (entry["name"] == old ? "" : " (was: " + line_of(old) + ")");
 }
@@ -121,10 +121,10 @@ std::string values_table(const Compared& values, bool tolerant) {
   const auto count = [](const char* key) { return [key](const Json& entry) { return grouped(entry[key]); }; };
   std::vector<Column> columns = {{values.found.front().contains("name") ? axis_of(field) : "", Align::left,
                                   [&field](const Json& entry) { return name_of(entry, field); }},
-                                 {"lost " + field.shown.compared, Align::right, count("lost")},
+                                 {"lost " + field.display.compared, Align::right, count("lost")},
                                  {"left the set", Align::right, count("left")},
                                  {"now bounded", Align::right, count("now_bounded")},
-                                 {"gained " + field.shown.compared, Align::right, count("gained")}};
+                                 {"gained " + field.display.compared, Align::right, count("gained")}};
   if (tolerant) columns.push_back({"tolerated", Align::right, count("tolerated")});
   return table_text(values.found, columns);
 }
@@ -177,7 +177,7 @@ std::string worst_text(const Json& entry, const Field& field, const Files& files
   const std::string which =
       named < number_of(entry["lost"]) ? fmt::format("the worst {} of ", grouped(named)) : "";
   return fmt::format("\n{}{}: {}{} that lost {}\n{}", is_entry ? axis_of(field) + " " : "",
-                     name_of(entry, field), which, cells(entry["lost"]), field.shown.compared,
+                     name_of(entry, field), which, cells(entry["lost"]), field.display.compared,
                      table_text(entry["worst"], columns));
 }
 
@@ -215,7 +215,7 @@ std::string verdict_text(const Json& comparison, const std::vector<Compared>& va
   }
   for (const Compared& one : values) {
     for (const Json& entry : one.found) {
-      if (entry["lost"] > 0) return fmt::format("\nWorse: cells have lost {}.\n", one.field.shown.compared);
+      if (entry["lost"] > 0) return fmt::format("\nWorse: cells have lost {}.\n", one.field.display.compared);
     }
   }
   return "\nWorse: a requirement no longer holds.\n";

@@ -59,7 +59,7 @@ std::string csv_partition_header(const StoredPartition& partition, const QueryFo
   }
   for (const Field* const field : form.numbers) {
     if (QueryForm::is_of_partitions(*field))
-      line += fmt::format(",{}:{}", field->shown.asked.name, partition.name);
+      line += fmt::format(",{}:{}", field->display.query.name, partition.name);
   }
   return line;
 }
@@ -86,18 +86,18 @@ std::string header_of_answers(const QueryForm& form) {
                       answer_column("cell", results));
   for (const StoredPartition& partition : results.partitions()) line += csv_partition_header(partition, form);
   for (const Field* const field : form.others) {
-    const FieldAsked& asked = field->shown.asked;
+    const FieldQuery& query = field->display.query;
     if (field->kind == FieldKind::probability) {
-      for (const std::string& entry : results.leading_names(*field)) line += "," + asked.name + ":" + entry;
+      for (const std::string& entry : results.leading_names(*field)) line += "," + query.name + ":" + entry;
     } else {
-      line += "," + answer_column(field->kind == FieldKind::choice ? asked.group : asked.name, results);
+      line += "," + answer_column(field->kind == FieldKind::choice ? query.group : query.name, results);
     }
   }
   for (const AnswerPolicy& policy : form.of_agents) {
     for (const AgentSpec& agent : form.spec().agents) line += "," + policy.name + ":" + agent.name;
   }
   for (const Field* const field : form.numbers) {
-    if (!QueryForm::is_of_partitions(*field)) line += "," + field->shown.asked.name;
+    if (!QueryForm::is_of_partitions(*field)) line += "," + field->display.query.name;
   }
   return line;
 }

@@ -98,8 +98,8 @@ Json agents_json(const ActionSets& actions, const ProblemSpec& spec) {
 }
 
 void add_number(Json& json, const Field& field, std::int32_t value) {
-  json[field.shown.asked.name] = value_json(field, value);
-  json[field.shown.asked.name + "_status"] = status_of(field, value);
+  json[field.display.query.name] = value_json(field, value);
+  json[field.display.query.name + "_status"] = status_of(field, value);
 }
 
 Json partition_json(const StateAnswer& answer, std::size_t p, const QueryForm& form) {
@@ -122,20 +122,20 @@ Json partition_json(const StateAnswer& answer, std::size_t p, const QueryForm& f
 /// else those that hold.
 void add_to_section(Json& json, const Field& field, const std::vector<std::int32_t>& values,
                     const ResultsReader& results) {
-  const FieldAsked& asked = field.shown.asked;
-  if (!asked.attribute.empty()) json[asked.attribute] = integer_attribute(field, asked.attribute);
+  const FieldQuery& query = field.display.query;
+  if (!query.attribute.empty()) json[query.attribute] = integer_attribute(field, query.attribute);
   if (field.kind == FieldKind::choice) {
     const std::int32_t p = values.front();
-    json[asked.name] = p >= 0 ? Json(results.partitions()[static_cast<std::size_t>(p)].name) : Json();
-    json["status"] = p >= 0 ? asked.name : status_of(field, p);
+    json[query.name] = p >= 0 ? Json(results.partitions()[static_cast<std::size_t>(p)].name) : Json();
+    json["status"] = p >= 0 ? query.name : status_of(field, p);
     return;
   }
   if (field.kind == FieldKind::probability) {
     for (std::size_t i = 0; i < values.size(); ++i)
-      json[asked.name][results.leading_names(field)[i]] = probability_of(values[i]);
+      json[query.name][results.leading_names(field)[i]] = probability_of(values[i]);
     return;
   }
-  Json& names = json[asked.name] = Json::array();
+  Json& names = json[query.name] = Json::array();
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] != 0) names.push_back(results.leading_names(field)[i]);
   }
@@ -174,11 +174,11 @@ Json answer_json(const StateAnswer& answer, const QueryForm& form) {
   for (std::size_t p = 0; inside && p < results.partitions().size(); ++p)
     json["partitions"].push_back(partition_json(answer, p, form));
   for (const Field* const field : form.others) {
-    const FieldAsked& asked = field->shown.asked;
+    const FieldQuery& query = field->display.query;
     if (!inside) {
-      json[asked.group.empty() ? asked.name : asked.group] = Json();
+      json[query.group.empty() ? query.name : query.group] = Json();
     } else {
-      add_to_section(asked.group.empty() ? json : json[asked.group], *field, answer.values.at(field->path),
+      add_to_section(query.group.empty() ? json : json[query.group], *field, answer.values.at(field->path),
                      results);
     }
   }
@@ -191,8 +191,8 @@ Json answer_json(const StateAnswer& answer, const QueryForm& form) {
     if (inside) {
       add_number(json, *field, answer.value(field->path));
     } else {
-      json[field->shown.asked.name] = Json();
-      json[field->shown.asked.name + "_status"] = Json();
+      json[field->display.query.name] = Json();
+      json[field->display.query.name + "_status"] = Json();
     }
   }
   return json;
@@ -208,8 +208,8 @@ std::string answer_json_line(const StateAnswer& answer, const QueryForm& form,
   return json_line(json);
 }
 
-void print_state(const CommonOptions& asked, const StateAnswer& answer, const QueryForm& form) {
-  print_answer(asked, answer_json(answer, form),
+void print_state(const CommonOptions& options, const StateAnswer& answer, const QueryForm& form) {
+  print_answer(options, answer_json(answer, form),
                [&](const Json& found) { return answer_text(found, answer.state, form); });
 }
 

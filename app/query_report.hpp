@@ -56,7 +56,7 @@ void print_state(const CommonOptions& asked, const StateAnswer& answer, const Qu
 /// An attribute that the spec tells. @pre the field has it
 [[nodiscard]] std::int64_t integer_attribute(const Field& field, const std::string& name);
 
-/// The meaning of a word of the flags, see FieldAsked::meanings.
+/// The meaning of a word of the flags, see FieldQuery::meanings.
 [[nodiscard]] std::string status_words(const Field& field, const std::string& status);
 /// A value of a document by its key, which stands beside its `KEY_status`. @param steps_text of steps
 [[nodiscard]] std::string value_words(const Field& field, const Json& of, const std::string& key,

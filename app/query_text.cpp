@@ -59,7 +59,7 @@ class AnswerText {
     facts.emplace_back("leaves the safe set", collision_text(answer_["collision_time"]));
     for (const Field* const field : form_.numbers) {
       if (!QueryForm::is_of_partitions(*field))
-        facts.emplace_back(field->shown.asked.words, value_text(*field, answer_, field->shown.asked.name));
+        facts.emplace_back(field->display.query.words, value_text(*field, answer_, field->display.query.name));
     }
     facts.emplace_back("guarantee", guarantee_of_file(text_of(answer_["guarantee"]), form_.spec()));
     return facts_text(facts);
@@ -152,14 +152,14 @@ class AnswerText {
       for (const auto& [key, path] : {std::pair("delay", policy.delay), {"countdown", policy.trigger}}) {
         if (path.empty()) continue;
         const Field& field = form_.results.field(path);
-        facts.emplace_back("  " + field.shown.asked.words, value_text(field, entry, key));
+        facts.emplace_back("  " + field.display.query.words, value_text(field, entry, key));
       }
       add_classes(policy, entry["classes"], facts);
     }
     for (const Field* const field : form_.numbers) {
       if (QueryForm::is_of_partitions(*field))
-        facts.emplace_back("  " + field->shown.asked.words,
-                           value_text(*field, partition, field->shown.asked.name));
+        facts.emplace_back("  " + field->display.query.words,
+                           value_text(*field, partition, field->display.query.name));
     }
     const std::string best = best_text(p);
     if (!best.empty()) facts.emplace_back("  best state", best);
@@ -227,29 +227,29 @@ class AnswerText {
     bool is_told = true;
     for (std::size_t i = 0; i < form_.others.size(); ++i) {
       const Field& field = *form_.others[i];
-      const FieldAsked& asked = field.shown.asked;
-      const Json& entry = asked.group.empty() ? answer_ : answer_[asked.group];
+      const FieldQuery& query = field.display.query;
+      const Json& entry = query.group.empty() ? answer_ : answer_[query.group];
       const bool begins =
-          i == 0 || asked.group.empty() || asked.group != form_.others[i - 1]->shown.asked.group;
+          i == 0 || query.group.empty() || query.group != form_.others[i - 1]->display.query.group;
       if (begins) {
-        const std::string first = asked.attribute.empty() ? "" : steps_text(entry[asked.attribute]) + " ";
+        const std::string first = query.attribute.empty() ? "" : steps_text(entry[query.attribute]) + " ";
         if (i > 0) text += facts_text(std::exchange(facts, {}));
-        text += "\n" + first + asked.heading + "\n";
+        text += "\n" + first + query.heading + "\n";
       }
       if (begins) is_told = true;
-      if (is_told) facts.emplace_back("  " + asked.words, section_text(field, entry, is_told));
+      if (is_told) facts.emplace_back("  " + query.words, section_text(field, entry, is_told));
     }
     return facts.empty() ? text : text + facts_text(facts);
   }
 
   /// @param is_chosen set to false where a partition is to be chosen and none is
   [[nodiscard]] std::string section_text(const Field& field, const Json& entry, bool& is_chosen) const {
-    const FieldAsked& asked = field.shown.asked;
-    if (field.kind == FieldKind::probability) return probabilities_text(entry[asked.name]);
+    const FieldQuery& query = field.display.query;
+    if (field.kind == FieldKind::probability) return probabilities_text(entry[query.name]);
     if (field.kind != FieldKind::choice)
-      return names_text(field, entry[asked.name].get<std::vector<std::string>>());
-    is_chosen = entry["status"] == asked.name;
-    return is_chosen ? text_of(entry[asked.name]) : status_words(field, text_of(entry["status"]));
+      return names_text(field, entry[query.name].get<std::vector<std::string>>());
+    is_chosen = entry["status"] == query.name;
+    return is_chosen ? text_of(entry[query.name]) : status_words(field, text_of(entry["status"]));
   }
 
   /// "up 1.3e-07, down 0.002".
@@ -265,7 +265,7 @@ class AnswerText {
 
   /// The entries of a set that hold, counted if the field says what they are called.
   [[nodiscard]] std::string names_text(const Field& field, std::vector<std::string> names) const {
-    const std::string& entry = field.shown.asked.entry;
+    const std::string& entry = field.display.query.entry;
     if (entry.empty()) return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
     const std::size_t count = names.size(), all = form_.results.leading_length(field);
     if (count == 0) return "no " + entry;

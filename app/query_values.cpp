@@ -31,7 +31,7 @@ std::int64_t integer_attribute(const Field& field, const std::string& name) {
 }
 
 std::string status_words(const Field& field, const std::string& status) {
-  const auto& meanings = field.shown.asked.meanings;
+  const auto& meanings = field.display.query.meanings;
   if (const auto found = meanings.find(status); found != meanings.end()) return found->second;
   return words_of(status);
 }
@@ -42,7 +42,7 @@ std::string value_words(const Field& field, const Json& of, const std::string& k
   if (status == "number") return of[key].is_number_float() ? probability_text(of[key]) : grouped(of[key]);
   if (status == "at_least") return "at least " + steps_text(of[key]);
   if (status != "steps") return status_words(field, status);
-  return of[key] == 0 && field.shown.asked.meanings.contains("0") ? status_words(field, "0")
+  return of[key] == 0 && field.display.query.meanings.contains("0") ? status_words(field, "0")
                                                                   : steps_text(of[key]);
 }
 

@@ -144,7 +144,7 @@ struct FieldMap {
 /// How `query` shows a field at the cell asked for; a field without a name and words is not shown. Those over
 /// /partition that are no steps of a policy, and those of other axes: sets as the names of the entries that
 /// hold, probabilities one for each entry.
-struct FieldAsked {
+struct FieldQuery {
   std::string name = {};   ///< key in JSON: "arrival", "safe_modes"
   std::string words = {};  ///< before it in the text: "time to the goal"
   /// In the text, longer meanings of the words of flags, and of "0".
@@ -158,7 +158,7 @@ struct FieldAsked {
 };
 
 /// How commands show a field over cells; a command whose member is empty does not show it.
-struct FieldShown {
+struct FieldDisplay {
   /// Name of its column in tables over cells (CSV, VTK): "delay", and "delay:alone" where it is over
   /// /partition, or over other names.
   std::string column = {};
@@ -169,7 +169,7 @@ struct FieldShown {
   /// value, of which more is better, or less; over an axis each entry with the one of the same name.
   std::string compared = {};
   bool less_is_better = false;
-  FieldAsked asked = {};
+  FieldQuery query = {};
   FieldMap map = {};
 };
 
@@ -182,7 +182,7 @@ struct Field {
   std::optional<FieldScale> scale = {};
   std::int64_t least = 0, most = kLargestValue;  ///< values of a field of integers
   std::vector<FieldAttribute> attributes = {};   ///< in the order in which they are written
-  FieldShown shown = {};
+  FieldDisplay display = {};
   /// Path of F, for steps over /partition: where F is negative, values of `max_delay` are lower
   /// bounds.
   std::string fixed_points = {};

@@ -11,7 +11,7 @@ namespace coordreq {
 std::vector<const Field*> asked_fields(const ResultsReader& results) {
   std::vector<const Field*> fields;
   for (const Field& field : answer_fields(results.spec())) {
-    if (!field.shown.asked.name.empty() && results.has(field.path))
+    if (!field.display.query.name.empty() && results.has(field.path))
       fields.push_back(&results.field(field.path));
   }
   return fields;

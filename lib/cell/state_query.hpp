@@ -34,7 +34,7 @@ struct StateAnswer {
   }
 };
 
-/// The fields of the file that are told as FieldAsked says, in the order of the answers, without the steps of
+/// The fields of the file that are shown as FieldQuery says, in the order of the answers, without the steps of
 /// policies.
 [[nodiscard]] std::vector<const Field*> asked_fields(const ResultsReader& results);
 

@@ -32,7 +32,7 @@ std::int64_t part_cells(std::optional<std::uint64_t> max_memory, std::size_t col
 }  // namespace
 
 double CellColumn::rank(std::int32_t value) const {
-  return field->shown.below_zero != 0 && value == field->shown.below_zero ? -0.5 : value;
+  return field->display.below_zero != 0 && value == field->display.below_zero ? -0.5 : value;
 }
 
 double CellColumn::number(std::int32_t value) const {
@@ -44,9 +44,9 @@ std::vector<CellColumn> cell_columns(const ResultsReader& results, std::optional
   std::vector<CellColumn> columns;
   std::map<std::string, std::vector<const Field*>> over;  // by leading axis
   for (const Field& field : results.fields()) {
-    if (field.shown.column.empty()) continue;
+    if (field.display.column.empty()) continue;
     if (results.leading_length(field) == 0) {
-      columns.push_back({field.shown.column, &field, std::nullopt});
+      columns.push_back({field.display.column, &field, std::nullopt});
     } else {
       over[field.axes.front()].push_back(&field);
     }
@@ -56,7 +56,7 @@ std::vector<CellColumn> cell_columns(const ResultsReader& results, std::optional
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (axis == "/partition" && partition && *partition != i) continue;
       for (const Field* const field : fields)
-        columns.push_back({field->shown.column + ":" + names[i], field, i});
+        columns.push_back({field->display.column + ":" + names[i], field, i});
     }
   }
   return columns;

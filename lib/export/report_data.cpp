@@ -69,7 +69,7 @@ Json sets_json(const ResultsReader& results, std::vector<ReportMap>& maps,
 /// The kind of the map that shows what is required.
 std::string kind_of_map(const ResultsReader& results, RequirementKind kind) {
   const std::string path = kind == RequirementKind::invariant ? "" : dataset_of(kind, results.spec()).path;
-  return path.empty() || !results.has(path) ? "collision_time" : results.field(path).shown.map.kind;
+  return path.empty() || !results.has(path) ? "collision_time" : results.field(path).display.map.kind;
 }
 
 /// The cells that the counterexamples visit; `independent` steps lead out of K.
@@ -135,7 +135,7 @@ double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
   const auto cells = static_cast<double>(results.grid().cells());
   double maps = 0;
   for (const Field& field : results.fields()) {
-    if (field.shown.map.kind.empty()) continue;
+    if (field.display.map.kind.empty()) continue;
     const std::size_t leading = results.leading_length(field);
     maps += static_cast<double>(std::clamp<std::size_t>(leading, 1, limits.partitions));
   }

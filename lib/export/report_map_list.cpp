@@ -16,7 +16,7 @@ using Leading = std::optional<std::size_t>;
 
 std::shared_ptr<Json> head_of(const Field& field) {
   auto head = std::make_shared<Json>();
-  (*head)["kind"] = field.shown.map.kind;
+  (*head)["kind"] = field.display.map.kind;
   return head;
 }
 
@@ -27,17 +27,17 @@ ReportMap number_map(const ResultsReader& results, const Field& field, Leading l
                 }};
   Json& head = *map.head;
   if (leading) head[field.axes.front().substr(1)] = *leading;
-  if (!field.shown.map.title.empty()) {
-    head["title"] = field.shown.map.title;
+  if (!field.display.map.title.empty()) {
+    head["title"] = field.display.map.title;
     head["meanings"] = Json::array();
     for (auto [value, word] : flags_of(field)) {
       std::replace(word.begin(), word.end(), '_', ' ');
       head["meanings"].push_back({value == kLargestValue ? Json("infinite") : Json(value), word});
     }
   }
-  if (!field.shown.map.legend) return map;
+  if (!field.display.map.legend) return map;
   const auto found = std::make_shared<std::set<std::int32_t>>();
-  map.legend = [&field, found](Json& entry) { field.shown.map.legend(*found, entry); };
+  map.legend = [&field, found](Json& entry) { field.display.map.legend(*found, entry); };
   map.read = [read = std::move(map.read), found](const CellBlock& block) {
     std::vector<std::int32_t> values = read(block);
     found->insert(values.begin(), values.end());
@@ -88,7 +88,7 @@ ReportMap real_map(const ResultsReader& results, const Field& field, Leading lea
     head[field.axes.front().substr(1)] = results.leading_names(field)[*leading];
     return map;
   }
-  head["title"] = field.shown.map.title;
+  head["title"] = field.display.map.title;
   head["scale"] = "logarithm";
   head["axis"] = leading ? Json(field.axes.front().substr(1)) : Json();
   head["entry"] = leading ? Json(results.leading_names(field)[*leading]) : Json();
@@ -119,7 +119,7 @@ std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector
                                  const ReportLimits& limits) {
   std::vector<const Field*> drawn;
   for (const Field& field : answer_fields(results.spec())) {
-    if (!field.shown.map.kind.empty() && results.has(field.path)) drawn.push_back(&results.field(field.path));
+    if (!field.display.map.kind.empty() && results.has(field.path)) drawn.push_back(&results.field(field.path));
   }
   const auto others = std::stable_partition(
       drawn.begin(), drawn.end(), [](const Field* field) { return field->axes.front() == "/partition"; });

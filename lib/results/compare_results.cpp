@@ -50,7 +50,7 @@ void for_each_part(const ResultsReader& before, const ResultsReader& after, cons
 }
 
 SetComparison compare_sets(const ResultsReader& before, const ResultsReader& after, const Field& field) {
-  SetComparison result{.name = field.path.substr(1), .words = field.shown.compared};
+  SetComparison result{.name = field.path.substr(1), .words = field.display.compared};
   const auto read = [&field](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool) {
     return file.stretch(begin, end,
                         [&](const CellBlock& block) { return file.members(field, std::nullopt, block); });
@@ -140,13 +140,13 @@ void compare_values(const ResultsReader& before, const ResultsReader& after, con
     if (options.progress) options.progress(subject);
     for (std::size_t i = 0; i < old.size(); ++i) {
       const std::int64_t cell = begin + static_cast<std::int64_t>(i);
-      const bool turns = field.shown.less_is_better;
+      const bool turns = field.display.less_is_better;
       counter.add(turns ? ValueChange{cell, turned(old[i]), turned(now[i])}
                         : ValueChange{cell, old[i], now[i]});
     }
   });
   counter.finish();
-  if (!field.shown.less_is_better) return;
+  if (!field.display.less_is_better) return;
   for (ValueChange& change : result.worst)
     change = {change.cell, turned_back(change.before), turned_back(change.after)};
 }
@@ -168,7 +168,7 @@ std::vector<EntryPair> common_entries(const ResultsReader& before, const Results
 /// Compares a field: every common entry, where it has a leading axis.
 void add_values(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
                 const Field& field, ResultsComparison& result) {
-  const ValueComparison begun{.name = field.path.substr(1), .words = field.shown.compared};
+  const ValueComparison begun{.name = field.path.substr(1), .words = field.display.compared};
   std::vector<ValueComparison> all;
   if (after.leading_length(field) == 0) {
     all.push_back(begun);
@@ -227,7 +227,7 @@ ResultsComparison compare_results(const ResultsReader& before, const ResultsRead
   if (options.progress) options.progress("sets");
   std::vector<const Field*> compared;
   for (const Field& field : after.fields()) {
-    if (!field.shown.compared.empty() && before.has(field.path)) compared.push_back(&field);
+    if (!field.display.compared.empty() && before.has(field.path)) compared.push_back(&field);
   }
   for (const Field* const field : compared) {
     if (field->kind == FieldKind::set) result.sets.push_back(compare_sets(before, after, *field));

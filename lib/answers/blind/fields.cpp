@@ -18,13 +18,13 @@
 namespace coordreq {
 namespace {
 
-Field blind_steps(const std::string& name, const ProblemSpec& spec, std::string long_name, FieldShown shown) {
+Field blind_steps(const std::string& name, const ProblemSpec& spec, std::string long_name, FieldDisplay display) {
   return steps_field(name, spec, kOutsideSafe,
                      described(std::move(long_name)) +
                          std::vector<FieldAttribute>{flags({{kOutsideSafe, "not_safe"},
                                                             {kOutsideInvariant, "not_invariant"},
                                                             {kLargestValue, "unbounded"}})},
-                     std::move(shown), "/blind_fixed_point_index");
+                     std::move(display), "/blind_fixed_point_index");
 }
 
 void add_table(Fields& fields, const ProblemSpec& spec, const PartitionSpec& partition, std::size_t c) {
@@ -109,11 +109,11 @@ Fields blind_fields(const ProblemSpec& spec) {
                   "read themselves",
                   {.column = "blind_delay",
                    .compared = "blind delay",
-                   .asked = {.words = "blind delay"},
+                   .query = {.words = "blind delay"},
                    .map = {.kind = "blind_delay", .title = "Silence with own observations only"}}));
   fields.push_back(blind_steps("blind_countdown", spec,
                                "steps of silence that are left where agents no longer know the cell",
-                               {.column = "blind_countdown", .asked = {.words = "blind steps left"}}));
+                               {.column = "blind_countdown", .query = {.words = "blind steps left"}}));
   add_sizes(fields, kBlindKind, cell_count(spec), spec);
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   const bool has_tables = std::ranges::any_of(

@@ -85,7 +85,7 @@ Fields coalition_fields(const ProblemSpec& spec) {
            std::vector<FieldAttribute>{flags({{kNoPartitionSuffices, "no_partition_suffices"},
                                               {kOutsideSafe, "not_safe"},
                                               {kOutsideInvariant, "not_invariant"}})},
-       .shown = {.asked = {.name = "partition",
+       .display = {.query = {.name = "partition",
                            .words = "cheapest partition",
                            .meanings = {{"no_partition_suffices", "none: no partition of the file suffices"},
                                         {"not_safe", "none"},
@@ -108,7 +108,7 @@ Fields coalition_fields(const ProblemSpec& spec) {
        .attributes = described("the two are together in every partition of least cost that suffices") +
                      counted_cells(count) +
                      std::vector<FieldAttribute>{flags({{0, "not_critical"}, {1, "critical"}})},
-       .shown = {.asked = {.name = "critical_pairs", .words = "critical pairs", .group = "coalition"},
+       .display = {.query = {.name = "critical_pairs", .words = "critical pairs", .group = "coalition"},
                  .map = {.kind = "pairs"}}});
   return fields;
 }

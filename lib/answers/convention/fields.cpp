@@ -40,7 +40,7 @@ Fields convention_fields(const ProblemSpec& spec) {
        .types = {ElementType::float32},
        .axes = cell_axes("/agent", spec),
        .attributes = described("part of its admissible actions that an agent keeps under the convention"),
-       .shown = {.map = {.kind = "freedom"}}});
+       .display = {.map = {.kind = "freedom"}}});
   for (const AgentSpec& agent : spec.agents) {
     if (!spec.output.actions) break;
     add_bits(fields, paths::convention(agent), FieldSection::convention, spec, agent.inputs,

@@ -21,7 +21,7 @@ std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t losses) {
 }
 
 Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                  std::vector<FieldAttribute> attributes, FieldShown shown, std::string fixed_points) {
+                  std::vector<FieldAttribute> attributes, FieldDisplay display, std::string fixed_points) {
   return {.path = "/" + name,
           .kind = FieldKind::steps,
           .section = FieldSection::steps,
@@ -29,7 +29,7 @@ Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t
           .axes = cell_axes("/partition", spec),
           .least = least,
           .attributes = std::move(attributes),
-          .shown = std::move(shown),
+          .display = std::move(display),
           .fixed_points = std::move(fixed_points)};
 }
 

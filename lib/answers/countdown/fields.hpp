@@ -24,7 +24,7 @@ namespace coordreq {
 void add_sizes(Fields& fields, const CountdownKind& kind, std::uint64_t losses, const ProblemSpec& spec);
 /// The field of delays, or of triggers, of all partitions. @param fixed_points Field::fixed_points
 [[nodiscard]] Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                                std::vector<FieldAttribute> attributes, FieldShown shown,
+                                std::vector<FieldAttribute> attributes, FieldDisplay display,
                                 std::string fixed_points = {});
 
 /// [partition] The layers of a kind of countdown.

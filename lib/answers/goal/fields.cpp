@@ -62,10 +62,10 @@ Field arrival_field(const ProblemSpec& spec) {
                             {"winning_cells", std::uint64_t{0}, true},
                             {"longest_arrival", std::int64_t{0}, true}} +
                         longest_attributes(spec),
-          .shown = {.column = "arrival",
+          .display = {.column = "arrival",
                     .compared = words.compared,
                     .less_is_better = true,
-                    .asked = {.name = "arrival", .words = words.compared},
+                    .query = {.name = "arrival", .words = words.compared},
                     .map = {.kind = "arrival", .title = words.title}}};
 }
 
@@ -77,7 +77,7 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
               flags({kNotWinning, kNotSafe, kNotInvariant, {kLargestValue, "unbounded"}})},
       {.column = "approach_delay",
        .compared = "approach delay",
-       .asked = {.words = "approach delay"},
+       .query = {.words = "approach delay"},
        .map = {.kind = "approach_delay", .title = "Silence that costs no time to the goal"}},
       "/approach_fixed_point_index"));
   fields.push_back(steps_field(
@@ -91,7 +91,7 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
                                       {"connection_delay", spec.coordination.connection_delay}},
       {.column = "approach_countdown",
        .below_zero = kMustBeConnected,
-       .asked = {.words = "approach: connect in"}}));
+       .query = {.words = "approach: connect in"}}));
 }
 
 template <class Integer>

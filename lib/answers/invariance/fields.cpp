@@ -20,7 +20,7 @@ Field set_of_cells(const std::string& name, const std::string& compared, const P
           .most = 1,
           .attributes = described(long_name) +
                         std::vector<FieldAttribute>{flags({{0, "not_" + name}, {1, name}}), counted_cells()},
-          .shown = {.column = name, .compared = compared}};
+          .display = {.column = name, .compared = compared}};
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ Fields invariance_fields(const ProblemSpec& spec) {
            described("steps within which the worst case leaves the safe set, whatever is coordinated") +
            std::vector<FieldAttribute>{flags({{0, "not_safe"}, {kLargestValue, "never"}}),
                                        {"iterations", std::int64_t{0}, true}},
-       .shown = {.column = "collision_time", .map = {.kind = "collision_time"}}});
+       .display = {.column = "collision_time", .map = {.kind = "collision_time"}}});
   if (spec.output.controller) {
     add_bits(fields, paths::kController, FieldSection::controller, spec, all_inputs(spec),
              "joint inputs that the controller admits, one bit each");

@@ -25,7 +25,7 @@ Fields network_fields(const ProblemSpec& spec) {
            .attributes = described("from here the agents stay safe if the network is in this mode") +
                          counted_cells(count) +
                          std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
-           .shown = {.asked = {.name = "safe_modes",
+           .display = {.query = {.name = "safe_modes",
                                .words = "safe in",
                                .heading = fmt::format("network {}: {}", network_kind_name(spec.network->kind),
                                                       network_meaning(*spec.network)),

@@ -41,10 +41,10 @@ Field risk_field(const ProblemSpec& spec) {
           .attributes = described("greatest probability to leave the invariance set within the horizon if "
                                   "the network is in this mode") +
                         std::vector<FieldAttribute>{{"horizon", spec.risk->horizon}, {"rate", 0.0, true}},
-          .shown = {.column = "risk",
+          .display = {.column = "risk",
                     .compared = "risk",
                     .less_is_better = true,
-                    .asked = {.name = "risk",
+                    .query = {.name = "risk",
                               .words = "risk in",
                               .heading = fmt::format("probability to leave the invariance set within {}",
                                                      count_of(spec.risk->horizon, "step"))},
@@ -59,10 +59,10 @@ Field drawn_risk_field(const ProblemSpec& spec) {
   field.attributes = described(
       "greatest probability to leave the invariance set within the horizon, before the network is drawn for "
       "the first step");
-  field.shown.column = field.shown.compared = "risk_drawn";
-  field.shown.asked.name = "risk_drawn";
-  field.shown.asked.words = "risk with the network";
-  field.shown.map.title = "Risk, first step drawn";
+  field.display.column = field.display.compared = "risk_drawn";
+  field.display.query.name = "risk_drawn";
+  field.display.query.words = "risk with the network";
+  field.display.map.title = "Risk, first step drawn";
   return field;
 }
 

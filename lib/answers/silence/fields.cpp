@@ -25,7 +25,7 @@ Field silence_field(const ProblemSpec& spec) {
               {{kOutsideSafe, "not_safe"}, {kOutsideInvariant, outside}, {kLargestValue, "unbounded"}})},
       {.column = "silence",
        .compared = "silence",
-       .asked = {.words = "silence",
+       .query = {.words = "silence",
                  .meanings = {{"not_safe", "none: the cell is not safe"},
                               {"not_invariant", "none: no coordination keeps the system safe from here"},
                               {"not_in_silence_set", "none: the fallback rule does not keep the system safe"},
@@ -51,7 +51,7 @@ Fields silence_fields(const ProblemSpec& spec) {
                       .attributes = described("from here what comes after silence is safe for ever") +
                                     std::vector<FieldAttribute>{counted_cells()} +
                                     std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
-                      .shown = {.column = "silence_set", .compared = "silence set"}});
+                      .display = {.column = "silence_set", .compared = "silence set"}});
   }
   add_sizes(fields, kSilenceKind, cell_count(spec), spec);
   return fields;
