@@ -82,8 +82,8 @@ std::string tolerated(const Json& partition, const Json& summary, int percent) {
 
 void add_shares(const Json& partition, const Json& summary, Facts& facts) {
   if (partition["layers"].size() < 2) return;
-  for (const auto& [percent, words] : {std::pair(50, "half"), std::pair(90, "90 %"), std::pair(99, "99 %")})
-    facts.emplace_back(fmt::format("  {} of K can tolerate", words), tolerated(partition, summary, percent));
+  for (const auto& [percent, label] : {std::pair(50, "half"), std::pair(90, "90 %"), std::pair(99, "99 %")})
+    facts.emplace_back(fmt::format("  {} of K can tolerate", label), tolerated(partition, summary, percent));
 }
 
 /// " All best states lie at the edge of the grid, ...", or nothing.
@@ -211,9 +211,9 @@ std::string closing_text(const Json& summary) {
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
   std::string text = sizes(summary, spec) + sets_text(summary, spec) + partitions_text(summary, spec);
   for (const AnalysisSection section : analysis_sections()) text += section(summary, spec);
-  std::vector<std::string> told = {"controller", "seconds", "work", "tightness", "warnings"};
-  told.insert(told.end(), known_members().begin(), known_members().end());
-  return text + others_text(summary, told) + requirements_text(summary["requirements"], spec) +
+  std::vector<std::string> known = {"controller", "seconds", "work", "tightness", "warnings"};
+  known.insert(known.end(), known_members().begin(), known_members().end());
+  return text + others_text(summary, known) + requirements_text(summary["requirements"], spec) +
          closing_text(summary);
 }
 

@@ -7,14 +7,15 @@
 
 namespace coordreq {
 
-void declare_files(Options& options, AnalyzeOptions& own) {
-  options.option(own.output, "-o,--output", "FILE",
+void declare_files(Options& options, AnalyzeOptions& args) {
+  options.option(args.output, "-o,--output", "FILE",
                  "Results file (default: NAME.h5 in the current folder), or a folder for several", file_name);
-  options.flag(own.is_forced, "--force", "Replace a file of the name NAME.h5 also if it is not of this spec");
-  options.option(own.junit, "--junit", "FILE", "Also write the requirements as a JUnit report", file_name);
-  declare_settings(options, own.settings);
+  options.flag(args.is_forced, "--force",
+               "Replace a file of the name NAME.h5 also if it is not of this spec");
+  options.option(args.junit, "--junit", "FILE", "Also write the requirements as a JUnit report", file_name);
+  declare_settings(options, args.settings);
   options.repeatable(
-      own.sweeps, "--sweep", "PATH=VALUE,VALUE",
+      args.sweeps, "--sweep", "PATH=VALUE,VALUE",
       "Analyse once for each value and print a table; refine=1,2,4 gives finer grids; repeated: every "
       "combination; results files are written only with -o",
       parse_sweep);

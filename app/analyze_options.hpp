@@ -20,7 +20,7 @@ struct AnalyzeOptions : CommonOptions {
   std::vector<SpecSetting> settings;
   std::vector<Sweep> sweeps;
   std::optional<std::string> output, junit;
-  bool is_forced = false;  ///< files under names that nobody has typed are replaced, whatever they are
+  bool is_forced = false;  ///< files under default names are replaced, whatever they are
   ProgressOptions progress;
   std::optional<CheckpointOptions> checkpoint;
   Ranks* ranks = nullptr;  ///< the processes that share the work; null: there is one
@@ -29,13 +29,13 @@ struct AnalyzeOptions : CommonOptions {
 
   /// Whether this process reads, writes and prints.
   [[nodiscard]] bool is_first() const { return ranks == nullptr || ranks->rank() == 0; }
-  /// Whether there is more than one analysis to do, or a table of one is asked for.
+  /// Whether there is more than one analysis to do, or a table of one was requested.
   [[nodiscard]] bool is_batch() const { return specs.size() > 1 || !sweeps.empty(); }
 };
 
 /// --output, --junit, --set, --refine and --sweep.
-void declare_files(Options& options, AnalyzeOptions& own);
-/// --checkpoint, --checkpoint-every and --resume. @param takes a word for where it is saved: "FILE"
+void declare_files(Options& options, AnalyzeOptions& args);
+/// --checkpoint, --checkpoint-every and --resume. @param takes a name for where it is saved: "FILE"
 void declare_checkpoint(Options& options, std::optional<CheckpointOptions>& checkpoint, const char* takes);
 
 }  // namespace coordreq

@@ -27,7 +27,7 @@
 namespace coordreq {
 namespace {
 
-/// Lets a signal end the program at once while there is no temporary file, and as soon as it hears of the
+/// Lets a signal end the program at once while there is no temporary file, and as soon as it notices the
 /// work's progress otherwise.
 class InterruptPolicy {
  public:
@@ -38,7 +38,7 @@ class InterruptPolicy {
     if (progress.has_temporary && !delay_) delay_.emplace();
     if (!progress.has_temporary) delay_.reset();
     // After that: one that came before the end of the delay has been kept waiting. Once the results are
-    // complete it is told at the end, see check_interrupted().
+    // complete it is reported at the end, see check_interrupted().
     if (is_interrupted() && !progress.is_written) throw interruption();
   }
 
@@ -59,7 +59,7 @@ void report_hours(const Model& model, ThreadTeam& team) {
       printable(model.spec().name), time_span(*seconds), team.size(), team.size() == 1 ? "" : "s"));
 }
 
-/// @throws UsageError if a file would take the place of another
+/// @throws UsageError if a file would replace another
 void check_files(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& options) {
   FilesInUse files;
   add_read_files(options.specs.front(), &spec, files);
@@ -71,41 +71,40 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
 }  // namespace
 
 std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                                  const AnalyzeOptions& asked, const std::string& prefix) {
+                                                  const AnalyzeOptions& args, const std::string& prefix) {
   const Model model = with_places_in(spec, [&] { return make_model(spec); });
   // Each of several processes knows only later which rows it holds.
-  const bool is_alone = asked.ranks == nullptr || asked.ranks->count() == 1;
-  ThreadTeam team(is_alone
-                      ? threads_within(model, asked.memory(), asked.threads, asked.checkpoint.has_value())
-                      : asked.threads);
-  if (is_alone && !asked.quiet) report_hours(model, team);
+  const bool is_alone = args.ranks == nullptr || args.ranks->count() == 1;
+  ThreadTeam team(is_alone ? threads_within(model, args.memory(), args.threads, args.checkpoint.has_value())
+                           : args.threads);
+  if (is_alone && !args.quiet) report_hours(model, team);
   InterruptPolicy interrupts;
-  ProgressDisplay shown(asked.progress, asked.quiet);
+  ProgressDisplay display(args.progress, args.quiet);
   AnalysisOptions options;
   options.output = output;
-  options.checkpoint = asked.checkpoint;
-  options.ranks = asked.ranks;
-  options.max_memory = asked.memory();
+  options.checkpoint = args.checkpoint;
+  options.ranks = args.ranks;
+  options.max_memory = args.memory();
   options.progress = [&](const Progress& progress) {
     interrupts.obey(progress);
-    if (asked.watch) asked.watch();
+    if (args.watch) args.watch();
     Progress of_many = progress;
     of_many.stage = prefix + progress.stage;
-    shown.update(of_many);
+    display.update(of_many);
   };
   options.notice = [&](const std::string& text) {
-    if (!asked.quiet) shown.notice(text);
+    if (!args.quiet) display.notice(text);
   };
   Json summary = with_places_in(spec, [&] { return analyze(model, options, team); });
-  shown.finish();
-  if (asked.is_first() && verdict(summary) != ExitCode::success && std::filesystem::is_regular_file(output))
+  display.finish();
+  if (args.is_first() && verdict(summary) != ExitCode::success && std::filesystem::is_regular_file(output))
     summary = with_nearest_regions(summary, output);
   return std::make_shared<const Json>(std::move(summary));
 }
 
-void check_interrupted(const std::string& place) {
+void check_interrupted(const std::string& location) {
   if (is_interrupted()) {
-    throw Error(ExitCode::interrupted, "interrupted when the results were complete", place);
+    throw Error(ExitCode::interrupted, "interrupted when the results were complete", location);
   }
 }
 

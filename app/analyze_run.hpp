@@ -16,15 +16,15 @@ namespace coordreq {
 ///   as analyze(); Error if the program was interrupted
 [[nodiscard]] std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec,
                                                                 const std::string& output,
-                                                                const AnalyzeOptions& asked,
+                                                                const AnalyzeOptions& args,
                                                                 const std::string& prefix);
 
-/// One analysis as `analyze` does it: nothing takes the place of anything else, and what it finds is written
+/// One analysis as `analyze` does it: no file replaces another, and what it finds is written
 /// and printed, by the first process.
 [[nodiscard]] ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& options);
 
-/// @throws Error if a signal waits. @param place what is complete nevertheless
-void check_interrupted(const std::string& place);
+/// @throws Error if a signal waits. @param location what is complete nevertheless
+void check_interrupted(const std::string& location);
 
 /// check_writable(), during which a signal waits. @throws IoError
 void try_to_write(const std::string& path);

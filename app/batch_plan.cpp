@@ -27,36 +27,36 @@ void read_into(PlannedRun& run, const SpecSource& source, std::vector<SpecSettin
 }
 
 /// The runs of one spec.
-void add_runs(const AnalyzeOptions& asked, const std::string& path,
+void add_runs(const AnalyzeOptions& args, const std::string& path,
               const std::vector<std::vector<SpecSetting>>& values, std::vector<PlannedRun>& runs) {
   std::optional<SpecSource> source;
   std::optional<Failure> failure;
   try {
-    source = load_source(path, asked.memory());
+    source = load_source(path, args.memory());
   } catch (...) {
     failure = describe_current_exception();
   }
   for (const std::vector<SpecSetting>& combination : values) {
     runs.push_back({.path = path, .values = combination, .failure = failure});
-    if (source) read_into(runs.back(), *source, asked.settings);
+    if (source) read_into(runs.back(), *source, args.settings);
   }
 }
 
-/// A text as a part of a file name: letters, digits and a few signs that need no quotes anywhere.
-std::string file_part(const std::string& text) {
-  std::string part = text;
-  for (char& c : part) {
+/// A text as it may stand in a file name: letters, digits and a few signs that need no quotes anywhere.
+std::string file_name_of(const std::string& text) {
+  std::string name = text;
+  for (char& c : name) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
                        std::string_view(".+-=").find(c) != std::string_view::npos;
     if (!plain) c = '_';
   }
-  return part;
+  return name;
 }
 
 /// "circle.h5", "circle_constants.R=0.7.h5"
 std::string results_name(const PlannedRun& run) {
   std::string name = run.spec->name;
-  for (const SpecSetting& value : run.values) name += "_" + file_part(value.path + "=" + value.value);
+  for (const SpecSetting& value : run.values) name += "_" + file_name_of(value.path + "=" + value.value);
   return name + ".h5";
 }
 
@@ -69,14 +69,14 @@ void check_folder(const std::string& path) {
       "--output");
 }
 
-/// @throws UsageError if a file would take the place of another
-void check_files(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked) {
+/// @throws UsageError if a file would replace another
+void check_files(const std::vector<PlannedRun>& runs, const AnalyzeOptions& args) {
   FilesInUse files;
   for (const PlannedRun& run : runs) add_read_files(run.path, run.spec ? &*run.spec : nullptr, files);
   for (const PlannedRun& run : runs) {
     if (!run.output.empty()) files.writes(run.output, "the results of " + run_label(run), "--output");
   }
-  if (asked.junit) files.writes(*asked.junit, "the JUnit report", "--junit");
+  if (args.junit) files.writes(*args.junit, "the JUnit report", "--junit");
 }
 
 /// Names of several files are never typed. @throws UsageError
@@ -101,20 +101,20 @@ std::string run_name(const PlannedRun& run) {
   return (run.spec ? run.spec->name : run.path) + swept_values(run);
 }
 
-std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked) {
-  if (std::count(asked.specs.begin(), asked.specs.end(), "-") > 1) {
+std::vector<PlannedRun> plan_runs(const AnalyzeOptions& args) {
+  if (std::count(args.specs.begin(), args.specs.end(), "-") > 1) {
     throw UsageError("standard input is named twice, expected one spec from it");
   }
-  const std::vector<std::vector<SpecSetting>> values = combinations(asked.sweeps);
-  if (asked.output) check_folder(*asked.output);
+  const std::vector<std::vector<SpecSetting>> values = combinations(args.sweeps);
+  if (args.output) check_folder(*args.output);
   std::vector<PlannedRun> runs;
-  for (const std::string& path : asked.specs) add_runs(asked, path, values, runs);
-  const bool writes = asked.output || asked.sweeps.empty();
+  for (const std::string& path : args.specs) add_runs(args, path, values, runs);
+  const bool writes = args.output || args.sweeps.empty();
   for (PlannedRun& run : runs) {
-    if (writes && run.spec) run.output = (fs::path(asked.output.value_or("")) / results_name(run)).string();
+    if (writes && run.spec) run.output = (fs::path(args.output.value_or("")) / results_name(run)).string();
   }
-  check_files(runs, asked);
-  if (asked.is_first() && !asked.is_forced) check_replaced(runs);
+  check_files(runs, args);
+  if (args.is_first() && !args.is_forced) check_replaced(runs);
   return runs;
 }
 

@@ -29,6 +29,6 @@ struct PlannedRun {
 /// with its run.
 /// @throws UsageError if a run would write what another reads or writes, or `--output` is no folder, before
 ///   anything is analysed
-[[nodiscard]] std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked);
+[[nodiscard]] std::vector<PlannedRun> plan_runs(const AnalyzeOptions& args);
 
 }  // namespace coordreq

@@ -35,12 +35,12 @@ std::string longest(const Json& partition, const Json& summary) {
   return text.empty() ? "-" : text;
 }
 
-std::string requirements_met(const Json& summary) {
+std::string requirements_that_hold(const Json& summary) {
   const Json& all = summary["requirements"];
   if (all.empty()) return "-";
-  const auto met =
+  const auto holding =
       std::count_if(all.begin(), all.end(), [](const Json& entry) { return entry["holds"].get<bool>(); });
-  return fmt::format("{} of {}", met, all.size());
+  return fmt::format("{} of {}", holding, all.size());
 }
 
 /// Columns of every run; those that only some runs have stand before the last.
@@ -53,7 +53,7 @@ std::vector<std::string> figures(const Json& summary, const RunFigures& more, co
   std::vector<std::string> result = {count("cells"),
                                      count("safe"),
                                      count("invariant"),
-                                     requirements_met(summary),
+                                     requirements_that_hold(summary),
                                      fmt::format("{:.2f}", seconds_of(summary)),
                                      byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()),
                                      of_partitions(summary, fixed_point_text),
@@ -70,11 +70,11 @@ std::vector<std::string> wide_figures(const ProblemSpec& spec, const RunFigures&
   const auto of_all = [&spec](const std::string& figure) {
     return joined(std::vector<std::string>(spec.coordination.partitions.size(), figure));
   };
-  const std::string most_met = std::to_string(spec.requirements.size());
+  const std::string all_hold = std::to_string(spec.requirements.size());
   std::vector<std::string> result = {cells,
                                      cells,
                                      cells,
-                                     most_met + " of " + most_met,
+                                     all_hold + " of " + all_hold,
                                      "12345.67",
                                      "1023 MiB",
                                      of_all(may_stop ? "not reached" : "1234"),
@@ -96,7 +96,7 @@ RunFigures figures_of_some(const std::vector<PlannedRun>& runs) {
   return result;
 }
 
-/// The values that tell one run from the others.
+/// The values that distinguish one run from the others.
 std::vector<std::string> labels(const PlannedRun& run, bool has_path) {
   std::vector<std::string> result;
   if (has_path) result.push_back(printable(run.path));
@@ -104,10 +104,10 @@ std::vector<std::string> labels(const PlannedRun& run, bool has_path) {
   return result;
 }
 
-std::vector<std::string> column_names(const AnalyzeOptions& asked, bool has_path, const RunFigures& more) {
+std::vector<std::string> column_names(const AnalyzeOptions& args, bool has_path, const RunFigures& more) {
   std::vector<std::string> names;
   if (has_path) names.emplace_back("spec");
-  for (const Sweep& sweep : asked.sweeps) names.push_back(printable(sweep.path));
+  for (const Sweep& sweep : args.sweeps) names.push_back(printable(sweep.path));
   names.insert(names.end(), std::begin(kFigures), std::end(kFigures));
   for (const RunFigure& figure : more) names.emplace_back(figure.name);
   names.emplace_back(kLastFigure);
@@ -139,7 +139,7 @@ Json run_json(const FinishedRun& run) {
   return json;
 }
 
-/// Lines about one requirement; of the runs beyond them the number is told.
+/// Lines about one requirement; of further runs only the number is printed.
 constexpr std::size_t kMostFailures = 10;
 
 /// A requirement of some runs, and why it fails in them.
@@ -152,8 +152,9 @@ void add_failure(const std::string& claim, const std::string& failure,
                  std::vector<FailedRequirement>& failed) {
   const auto known = std::find_if(failed.begin(), failed.end(),
                                   [&](const FailedRequirement& other) { return other.claim == claim; });
-  FailedRequirement& own = known == failed.end() ? failed.emplace_back(FailedRequirement{claim, {}}) : *known;
-  own.failures.push_back(failure);
+  FailedRequirement& requirement =
+      known == failed.end() ? failed.emplace_back(FailedRequirement{claim, {}}) : *known;
+  requirement.failures.push_back(failure);
 }
 
 }  // namespace
@@ -164,10 +165,10 @@ int worst_exit_code(const std::vector<FinishedRun>& runs) {
   return worst;
 }
 
-BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked)
-    : has_path_(asked.specs.size() > 1), more_(figures_of_some(runs)), table_({}) {
-  const std::vector<std::string> names = column_names(asked, has_path_, more_);
-  table_ = Table(alignment((has_path_ ? 1 : 0) + asked.sweeps.size(), names.size()));
+BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& args)
+    : has_path_(args.specs.size() > 1), more_(figures_of_some(runs)), table_({}) {
+  const std::vector<std::string> names = column_names(args, has_path_, more_);
+  table_ = Table(alignment((has_path_ ? 1 : 0) + args.sweeps.size(), names.size()));
   table_.add(names);
   for (const PlannedRun& run : runs) {
     std::vector<std::string> row = labels(run, has_path_);
@@ -184,8 +185,8 @@ BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions
 std::string BatchTable::row(const FinishedRun& run) const {
   std::vector<std::string> row = labels(*run.plan, has_path_);
   if (run.summary) {
-    const std::vector<std::string> own = figures(*run.summary, more_, *run.plan->spec);
-    row.insert(row.end(), own.begin(), own.end());
+    const std::vector<std::string> cells = figures(*run.summary, more_, *run.plan->spec);
+    row.insert(row.end(), cells.begin(), cells.end());
   } else {
     row.push_back("error: " + run.failure->what);
   }
@@ -207,22 +208,22 @@ std::string failures_text(const std::vector<FinishedRun>& runs) {
   std::string text;
   for (const FailedRequirement& requirement : failed) {
     text += "\n" + requirement.claim + "\n";
-    const std::size_t told = std::min(requirement.failures.size(), kMostFailures);
-    for (std::size_t i = 0; i < told; ++i) text += "  FAILS in " + requirement.failures[i] + ".\n";
-    if (const std::size_t more = requirement.failures.size() - told; more > 0)
+    const std::size_t listed = std::min(requirement.failures.size(), kMostFailures);
+    for (std::size_t i = 0; i < listed; ++i) text += "  FAILS in " + requirement.failures[i] + ".\n";
+    if (const std::size_t more = requirement.failures.size() - listed; more > 0)
       text += fmt::format("  FAILS in {} more of the {} runs.\n", grouped(std::uint64_t{more}),
                           grouped(std::uint64_t{runs.size()}));
   }
   return text;
 }
 
-std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked) {
+std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& args) {
   const auto written = std::count_if(runs.begin(), runs.end(), [](const FinishedRun& run) {
     return run.summary && !run.plan->output.empty();
   });
-  if (!asked.output && !asked.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
+  if (!args.output && !args.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
   return fmt::format("\nresults in {} file{} in {}\n", grouped(std::int64_t{written}),
-                     written == 1 ? "" : "s", asked.output ? printable(*asked.output) : "the current folder");
+                     written == 1 ? "" : "s", args.output ? printable(*args.output) : "the current folder");
 }
 
 std::string batch_json(const std::vector<FinishedRun>& runs) {

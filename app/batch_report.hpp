@@ -30,7 +30,7 @@ struct FinishedRun : RunOutcome {
 /// be, as far as that is known beforehand.
 class BatchTable {
  public:
-  BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked);
+  BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& args);
 
   [[nodiscard]] std::string heading() const { return table_.text(); }
   [[nodiscard]] std::string row(const FinishedRun& run) const;
@@ -45,7 +45,7 @@ class BatchTable {
 [[nodiscard]] std::string failures_text(const std::vector<FinishedRun>& runs);
 
 /// Where the results are.
-[[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked);
+[[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& args);
 
 /// One document: every run with its summary, as `analyze --json` prints it, or its error.
 [[nodiscard]] std::string batch_json(const std::vector<FinishedRun>& runs);

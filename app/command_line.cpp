@@ -37,7 +37,7 @@ struct Command {
 
 /// The parser with everything that may be typed.
 struct Parser {
-  explicit Parser(const ProgramInfo& own) : program(own), app(own.description, own.name) {
+  explicit Parser(const ProgramInfo& about) : program(about), app(about.description, about.name) {
     app.add_flag("--version", version, "Print the version")->disable_flag_override();
     app.require_subcommand(0, 1);
     app.allow_extras();
@@ -122,7 +122,7 @@ std::string usage(const Command& command) {
 }
 
 /// "takes one argument, SPEC"
-std::string taken(const Command& command) {
+std::string argument_rule(const Command& command) {
   const std::list<Options::Argument>& arguments = command.options.argument_list();
   if (arguments.empty()) return "takes no argument";
   if (arguments.size() == 1) {
@@ -156,8 +156,8 @@ void check_arguments(const Parser& parser, const Command& command) {
   const auto unknown = std::find_if(extra.begin(), extra.end(), looks_like_option);
   if (unknown != extra.end()) fail_option(command.app, *unknown);
   if (!extra.empty()) {
-    throw UsageError(
-        fmt::format("unexpected argument {}, {} {}", echoed(extra.front()), command.name, taken(command)));
+    throw UsageError(fmt::format("unexpected argument {}, {} {}", echoed(extra.front()), command.name,
+                                 argument_rule(command)));
   }
   check_arguments_are_there(parser.program, command);
 }
@@ -174,7 +174,7 @@ Run print(const ProgramInfo& program, std::string text) {
 UsageError translated(const CLI::ParseError& error) {
   const std::string what = error.what();
   const std::string option = what.substr(0, what.find_first_of(": "));
-  const auto says = [&what](const char* part) { return what.find(part) != std::string::npos; };
+  const auto says = [&what](const char* phrase) { return what.find(phrase) != std::string::npos; };
   if (says(" required ") && says(" missing")) return UsageError("expected a value, found none", option);
   if (says("At Most 1 required but received")) return UsageError("given more than once", option);
   if (says("disallowed flag override")) return UsageError("expected no value, found one", "--" + option);
@@ -217,8 +217,8 @@ std::string help_text(const std::string& command) {
   const ProgramInfo program = coordreq_program();
   const Parser parser(program);
   if (command.empty()) return parser.app.help();
-  for (const Command& own : parser.commands) {
-    if (own.name == command) return own.app.help(program.name);
+  for (const Command& candidate : parser.commands) {
+    if (candidate.name == command) return candidate.app.help(program.name);
   }
   fail_command(program, command);
 }

@@ -22,7 +22,7 @@ struct ProgramInfo {
 /// coordreq itself.
 [[nodiscard]] ProgramInfo coordreq_program();
 
-/// The command that the user asked for, read and checked. Help and version are commands too: they print and
+/// The command that the user typed, read and checked. Help and version are commands too: they print and
 /// succeed.
 /// @throws UsageError saying what was found and what was expected
 [[nodiscard]] Run parse_command_line(int argc, const char* const* argv,

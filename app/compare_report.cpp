@@ -109,7 +109,7 @@ std::string axis_of(const Field& field) {
   return field.axes.front().substr(1);
 }
 
-/// "alone", or "alone (was: a|b)"; the words of a field without a leading axis.
+/// "alone", or "alone (was: a|b)"; the label of a field without a leading axis.
 std::string name_of(const Json& entry, const Field& field) {
   if (!entry.contains("name")) return field.display.compared;
   const Json& old = entry["name_before"];
@@ -144,9 +144,9 @@ std::string value_text(const Json& value, const Json& status, const Json& partit
   if (status == "number") return value.is_number_float() ? probability_text(value) : grouped(value);
   if (status == "not_invariant") return "not in the invariance set";
   if (status != "steps") {
-    std::string word = text_of(status);
-    std::replace(word.begin(), word.end(), '_', ' ');
-    return word;
+    std::string label = text_of(status);
+    std::replace(label.begin(), label.end(), '_', ' ');
+    return label;
   }
   const DynamicsSpec& dynamics = file.spec().dynamics;
   return (is_lower_bound(value, partition, field, file) ? "at least " : "") +
@@ -231,11 +231,11 @@ Json comparison_json(const ResultsComparison& comparison, const ResultsReader& b
   json["tolerance"] = options.tolerance;
   for (const SetComparison& set : comparison.sets) json[set.name] = set_json(set);
   for (const ValueComparison& values : comparison.values) {
-    Json& place = json[key_of(values.name)];
+    Json& values_of_name = json[key_of(values.name)];
     if (values.entry) {
-      place.push_back(values_json(values, files));
+      values_of_name.push_back(values_json(values, files));
     } else {
-      place = values_json(values, files);
+      values_of_name = values_json(values, files);
     }
   }
   json["verdicts"] = Json::array();
@@ -262,10 +262,10 @@ std::string comparison_text(const Json& comparison, const ResultsReader& before,
 
 }  // namespace
 
-void print_comparison(const CommonOptions& asked, const ResultsComparison& comparison,
+void print_comparison(const CommonOptions& args, const ResultsComparison& comparison,
                       const ResultsReader& before, const ResultsReader& after,
                       const CompareOptions& options) {
-  print_answer(asked, comparison_json(comparison, before, after, options),
+  print_answer(args, comparison_json(comparison, before, after, options),
                [&](const Json& found) { return comparison_text(found, before, after); });
 }
 

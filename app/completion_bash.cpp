@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-/// The part that does not depend on the options. COMP_WORDS takes `--option=value` for three words.
+/// What does not depend on the options. COMP_WORDS takes `--option=value` for three words.
 constexpr const char* kBashFunctions = R"sh(
 _coordreq_offer() {  # KIND of a value: words or files
   local word=$word
@@ -60,8 +60,8 @@ complete -F _coordreq coordreq
 std::string kind_of(const ValueHelp& value) {
   if (value.text.empty()) return "flag";
   if (const std::string pattern = value.file_pattern(); !pattern.empty()) return "files " + pattern;
-  const std::vector<std::string> words = value.words();
-  return words.empty() ? "other" : fmt::format("words {}", fmt::join(words, " "));
+  const std::vector<std::string> literals = value.literals();
+  return literals.empty() ? "other" : fmt::format("words {}", fmt::join(literals, " "));
 }
 
 std::string option_case(const std::string& command, const OptionHelp& option) {

@@ -54,13 +54,13 @@ std::string fish_quoted(const std::string& text) {
   return result;
 }
 
-/// Where the value comes from; `complete` of fish is told with -a, or to complete files.
+/// Where the value comes from: for `complete` of fish either -a with the literals, or files.
 std::string value_source(const ValueHelp& value) {
   const std::string pattern = value.file_pattern();
   if (pattern == "*") return "-r -F";
   if (!pattern.empty()) return fmt::format("-x -a '(__coordreq_files {})'", pattern.substr(1));
-  const std::vector<std::string> words = value.words();
-  return words.empty() ? "-x" : fmt::format("-x -a '{}'", fmt::join(words, " "));
+  const std::vector<std::string> literals = value.literals();
+  return literals.empty() ? "-x" : fmt::format("-x -a '{}'", fmt::join(literals, " "));
 }
 
 std::string option_line(const std::string& condition, const OptionHelp& option) {

@@ -29,8 +29,8 @@ std::string value_action(const std::string& message, const ValueHelp& value) {
     action = "_files";
   } else if (!pattern.empty()) {
     action = fmt::format("_files -g \"{}\"", pattern);
-  } else if (const std::vector<std::string> words = value.words(); !words.empty()) {
-    action = fmt::format("({})", fmt::join(words, " "));
+  } else if (const std::vector<std::string> literals = value.literals(); !literals.empty()) {
+    action = fmt::format("({})", fmt::join(literals, " "));
   }
   return fmt::format(":{}:{}", escaped(message, ":\\"), action);
 }

@@ -12,9 +12,9 @@ std::string csv_steps(std::int32_t steps) {
 
 std::string answer_column(const std::string& name, const ResultsReader& results) {
   const auto& states = results.grid().dimensions();
-  const bool is_taken =
+  const bool is_state =
       std::ranges::any_of(states, [&](const GridDimension& state) { return state.name == name; });
-  return (is_taken ? "answer:" : "") + name;
+  return (is_state ? "answer:" : "") + name;
 }
 
 std::string csv_field(const std::string& text) {

@@ -32,10 +32,10 @@ Json centre_json(const UniformGrid& grid, std::int64_t cell) {
 Json freedom_json(const DelayExplanation& found, const StoredPartition& partition) {
   Json json = {{"together", found.together}, {"alone", found.alone}, {"classes", Json::array()}};
   for (std::size_t c = 0; c < found.actions.size(); ++c) {
-    const std::vector<bool>& own = found.actions[c];
+    const std::vector<bool>& admissible = found.actions[c];
     json["classes"].push_back({{"name", partition.classes[c]},
-                               {"admissible", std::count(own.begin(), own.end(), true)},
-                               {"total", own.size()}});
+                               {"admissible", std::count(admissible.begin(), admissible.end(), true)},
+                               {"total", admissible.size()}});
   }
   return json;
 }
@@ -73,21 +73,22 @@ Json silence_json(const DelayExplanation::Silence& found, std::size_t partition,
   json["silence_status"] = found.is_lower_bound ? "at_least" : status_of(field, found.steps);
   json["classes"] = Json::array();
   for (std::size_t c = 0; c < found.actions.size(); ++c) {
-    const std::vector<bool>& own = found.actions[c];
-    const auto permitted = std::count(own.begin(), own.end(), true);
+    const std::vector<bool>& actions = found.actions[c];
+    const auto permitted = std::count(actions.begin(), actions.end(), true);
     const auto& agents = spec.coordination.partitions[partition].classes[c];
-    json["classes"].push_back({{"name", results.partitions()[partition].classes[c]},
-                               {"permitted", permitted},
-                               {"total", own.size()},
-                               {"actions", permitted == 0 ? Json() : Json(action_words(spec, agents, own))}});
+    json["classes"].push_back(
+        {{"name", results.partitions()[partition].classes[c]},
+         {"permitted", permitted},
+         {"total", actions.size()},
+         {"actions", permitted == 0 ? Json() : Json(action_words(spec, agents, actions))}});
   }
-  Json& way = json["way_out"] = Json();
+  Json& path = json["way_out"] = Json();
   if (!found.path) return json;
-  way = path_json(*found.path, RequirementKind::min_silence, spec);
-  // Where it goes from there the file does not tell.
-  if (way["end_sample"].is_object() && way["end_sample"]["silence_status"] == "not_in_silence_set" &&
+  path = path_json(*found.path, RequirementKind::min_silence, spec);
+  // The file does not say where it goes from there.
+  if (path["end_sample"].is_object() && path["end_sample"]["silence_status"] == "not_in_silence_set" &&
       spec.silence->has_then())
-    way["end"] = "outside_silence_set";
+    path["end"] = "outside_silence_set";
   return json;
 }
 
@@ -100,32 +101,32 @@ std::string silence_text(const Json& silence, const ProblemSpec& spec) {
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(silence["silence"]), spec);
 }
 
-/// Adds the actions of silent agents, and the way that breaks their promise.
+/// Adds the actions of silent agents, and the path that breaks their promise.
 void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
   const Json& silence = found["silence"];
-  std::vector<std::string> parts;
+  std::vector<std::string> phrases;
   for (const Json& entry : silence["classes"]) {
     const bool is_all = entry["permitted"] == entry["total"];
     const std::string what = entry["permitted"] == 0 ? "no action"
                              : is_all                ? "any action"
                                                      : text_of(entry["actions"]);
-    parts.push_back(fmt::format("{} {}", line_of(entry["name"]), what));
+    phrases.push_back(fmt::format("{} {}", line_of(entry["name"]), what));
   }
-  text.push_back(fmt::format("During silence the rule permits here: {}.", listed_words(parts)));
+  text.push_back(fmt::format("During silence the rule permits here: {}.", list_text(phrases)));
   if (silence["way_out"].is_null()) return;
   for (std::string& sentence : counterexample_sentences(silent_path(found), spec))
     text.push_back(std::move(sentence));
 }
 
 std::string classes_are(const Json& freedom) {
-  std::vector<std::string> parts;
+  std::vector<std::string> phrases;
   for (const Json& entry : freedom["classes"]) {
     const bool is_all = entry["admissible"] == entry["total"];
-    parts.push_back(fmt::format("{} {}{}", line_of(entry["name"]),
-                                is_all ? "all " : grouped(entry["admissible"]) + " of ",
-                                grouped(entry["total"])));
+    phrases.push_back(fmt::format("{} {}{}", line_of(entry["name"]),
+                                  is_all ? "all " : grouped(entry["admissible"]) + " of ",
+                                  grouped(entry["total"])));
   }
-  return listed_words(parts);
+  return list_text(phrases);
 }
 
 /// Adds the actions that are left to the classes, with their meaning.

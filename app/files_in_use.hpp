@@ -8,7 +8,7 @@
 // Files under names that no user has typed: what lies there may be something else that is still wanted.
 namespace coordreq {
 
-/// The files that one run of the program reads and writes, so that none takes the place of another.
+/// The files that one run of the program reads and writes, so that none replaces another.
 ///
 /// Two paths are one file if they lead to the same device and inode, whatever links lie between; where
 /// nothing is there yet, if they lead to one name in one folder.

@@ -19,7 +19,7 @@ std::string jumping_text(const SystemSpec& spec) {
     if (spec.dynamics.update(i) != nullptr && !spec.dynamics.is_kept(i)) names.push_back(spec.states[i].name);
   }
   if (names.empty()) return "";
-  return fmt::format("; {} {} at the sampling instants and {} between", listed_words(names),
+  return fmt::format("; {} {} at the sampling instants and {} between", list_text(names),
                      names.size() == 1 ? "jumps" : "jump",
                      names.size() == 1 ? "keeps its value" : "keep their values");
 }

@@ -20,7 +20,7 @@ bool is_of_states(const std::string& finding) {
 }
 
 /// "3 steps", of a number or of what there is instead.
-std::string steps_words(const Json& of, const char* key, const Json& document) {
+std::string silence_text(const Json& of, const char* key, const Json& document) {
   return of[key].is_null() ? "any silence" : duration(of[key], document);
 }
 
@@ -28,7 +28,7 @@ std::string delay_text(const Json& first, const Json& document) {
   const std::string status = text_of(first["delay_status"]);
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "is outside the invariance set";
-  return "tolerates " + steps_words(first, "delay", document);
+  return "tolerates " + silence_text(first, "delay", document);
 }
 
 /// Values of inputs, those that are logged.
@@ -63,11 +63,11 @@ std::string detail(const std::string& finding, const Json& first, const Json& do
   return fmt::format("{} {}, less than the countdown promised", at, delay_text(first, document));
 }
 
-std::string words_of_finding(const std::string& finding) {
+std::string finding_label(const std::string& finding) {
   if (finding == "outside") return "outside the domain";
   if (finding == "unsafe") return "not safe";
   if (finding == "off_model") return "off the model";
-  return finding == "breach" ? "countdown broken" : words_of(finding);
+  return finding == "breach" ? "countdown broken" : label_of(finding);
 }
 
 std::string finding_text(const std::string& finding, const Json& entry, const Json& document) {
@@ -171,12 +171,13 @@ Json JudgeSummary::json() const {
   json["findings"] = Json::object();
   for (const LogFinding finding : kAllLogFindings) {
     const Tally& tally = tallies_[static_cast<std::size_t>(finding)];
-    Json& told = json["findings"][finding_name(finding)] = {{"judged", tally.judged}, {"count", tally.count}};
+    Json& entry =
+        json["findings"][finding_name(finding)] = {{"judged", tally.judged}, {"count", tally.count}};
     if (finding == LogFinding::reckless) {
       for (std::size_t c = 0; c < reckless_.size(); ++c)
-        told["classes"][results_.partitions()[partition_].classes[c]] = reckless_[c];
+        entry["classes"][results_.partitions()[partition_].classes[c]] = reckless_[c];
     }
-    told["first"] = tally.first ? first_json(*tally.first, finding) : Json();
+    entry["first"] = tally.first ? first_json(*tally.first, finding) : Json();
   }
   json["holds"] = holds();
   return json;
@@ -187,8 +188,8 @@ std::string judgement_text(const Json& found) {
                                  count_of(number_of(found["rows"]), "row"));
   if (found["gaps"] > 0) text += fmt::format(", {} after missing samples", grouped(found["gaps"]));
   Facts facts;
-  for (const auto& [finding, own] : found["findings"].items())
-    facts.emplace_back(words_of_finding(finding), finding_text(finding, own, found));
+  for (const auto& [finding, entry] : found["findings"].items())
+    facts.emplace_back(finding_label(finding), finding_text(finding, entry, found));
   return text + "\n" + facts_text(facts);
 }
 

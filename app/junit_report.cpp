@@ -18,7 +18,7 @@
 namespace coordreq {
 namespace {
 
-/// XML knows neither U+FFFE nor U+FFFF, whatever way they are written.
+/// XML knows neither U+FFFE nor U+FFFF, however they are written.
 std::string xml_text(std::string result) {
   for (const char* const unknown : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
     for (std::size_t at = result.find(unknown); at != std::string::npos; at = result.find(unknown, at))
@@ -81,16 +81,16 @@ void set_head(pugi::xml_node node, const std::string& name, const Totals& totals
   set(node, "time", fmt::format("{:.3f}", totals.seconds));
 }
 
-void add_suite(pugi::xml_node root, const JunitSuite& own) {
+void add_suite(pugi::xml_node root, const JunitSuite& content) {
   pugi::xml_node suite = root.append_child("testsuite");
-  const std::string name = printable(own.name);
-  set_head(suite, name, totals_of(own));
-  if (own.summary == nullptr) {
-    set(add_case(suite, name, "analysis").append_child("error"), "message", printable(own.error));
+  const std::string name = printable(content.name);
+  set_head(suite, name, totals_of(content));
+  if (content.summary == nullptr) {
+    set(add_case(suite, name, "analysis").append_child("error"), "message", printable(content.error));
     return;
   }
-  for (const Json& requirement : (*own.summary)["requirements"])
-    add_requirement(suite, name, requirement, *own.spec);
+  for (const Json& requirement : (*content.summary)["requirements"])
+    add_requirement(suite, name, requirement, *content.spec);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::string least_steps_text(const Json& found, const Field& field) {
   if (status == "unbounded") return "unbounded";
   if (status == "steps") return duration(found["least"], found);
   if (status == "at_least") return "at least " + duration(found["least"], found);
-  return status_words(field, status);
+  return status_text(field, status);
 }
 
 }  // namespace

@@ -25,11 +25,11 @@ void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 [[nodiscard]] SpecSource load_source(const std::string& path, std::optional<std::uint64_t> memory);
 
 /// The spec that a text is with the settings carried out, checked; it knows what was written.
-/// @throws SpecError with the place in the text; UsageError
+/// @throws SpecError with the location in the text; UsageError
 [[nodiscard]] ProblemSpec read_with_settings(const SpecSource& source,
                                              const std::vector<SpecSetting>& settings);
 
-/// Runs `work` on a spec and returns its result. @throws SpecError with the place in the text as written
+/// Runs `work` on a spec and returns its result. @throws SpecError with the location in the text as written
 template <class Work>
 auto with_places_in(const ProblemSpec& spec, const Work& work) {
   return with_places(written_spec(spec), work);

@@ -79,15 +79,15 @@ std::string italic(const std::string& text) {
   return "\\fI" + roff(text) + "\\fR";
 }
 
-/// Words that stand for themselves in bold, others in italics.
+/// Literals in bold, placeholders in italics.
 std::string value_text(const ValueHelp& value) {
-  const std::vector<std::string> words = value.words();
+  const std::vector<std::string> literals = value.literals();
   std::string text;
   for (std::size_t begin = 0; begin <= value.text.size();) {
     const std::size_t end = std::min(value.text.find('|', begin), value.text.size());
-    const std::string part = value.text.substr(begin, end - begin);
-    const bool literal = std::find(words.begin(), words.end(), part) != words.end();
-    text += (begin == 0 ? "" : "|") + (literal ? bold(part) : italic(part));
+    const std::string term = value.text.substr(begin, end - begin);
+    const bool literal = std::find(literals.begin(), literals.end(), term) != literals.end();
+    text += (begin == 0 ? "" : "|") + (literal ? bold(term) : italic(term));
     begin = end + 1;
   }
   return text;
@@ -115,7 +115,7 @@ std::string command_entry(const ProgramHelp& help, const CommandHelp& command,
       fmt::format(".SS {}\n{}", command_heading(help.name, command), sentence(command.description));
   for (const ArgumentHelp& argument : command.arguments) {
     text += ".TP\n" + value_text({argument.name});
-    if (!argument.value.words().empty()) text += " (" + value_text(argument.value) + ")";
+    if (!argument.value.literals().empty()) text += " (" + value_text(argument.value) + ")";
     text += "\n" + sentence(argument.description);
   }
   for (const OptionHelp& option : command.options) {

@@ -32,19 +32,19 @@ bool is_ordered(const GridDimension& dimension, const StateSpec& state) {
 Json nearest_region(const Json& requirement, const ResultsReader& results) {
   const UniformGrid& grid = results.grid();
   const auto& partitions = results.partitions();
-  const auto own = std::find_if(partitions.begin(), partitions.end(), [&](const StoredPartition& one) {
+  const auto partition = std::find_if(partitions.begin(), partitions.end(), [&](const StoredPartition& one) {
     return one.name == requirement["partition"];
   });
-  if (own == partitions.end()) return {};
+  if (partition == partitions.end()) return {};
   const std::vector<std::int64_t> worst = worst_index(requirement["counterexample"]["state"], grid);
   Json found;
   std::int64_t least = INT64_MAX;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (!is_ordered(grid[i], results.spec().states[i])) continue;
     for (const bool is_large_best : {true, false}) {
-      ToleranceQuestion question{.partition = static_cast<std::size_t>(own - partitions.begin()),
+      ToleranceQuestion question{.partition = static_cast<std::size_t>(partition - partitions.begin()),
                                  .steps = requirement["min_delay"].get<std::int64_t>(),
-                                 .over = {{i, is_large_best}},
+                                 .axes = {{i, is_large_best}},
                                  .given = {}};
       for (std::size_t j = 0; j < grid.size(); ++j)
         if (j != i) question.given.push_back({j, worst[j]});

@@ -66,14 +66,14 @@ std::uint64_t memory_size(const std::string& text, const std::string& option) {
 
 NamedValues named_values(const std::string& text, const std::string& option) {
   NamedValues values;
-  for (const std::string_view part : split_at_commas(text)) {
-    const std::size_t sign = part.find('=');
-    if (sign == std::string_view::npos) fail_value("NAME=VALUE", std::string(trimmed(part)), option);
-    const std::string name(trimmed(part.substr(0, sign)));
+  for (const std::string_view assignment : split_at_commas(text)) {
+    const std::size_t sign = assignment.find('=');
+    if (sign == std::string_view::npos) fail_value("NAME=VALUE", std::string(trimmed(assignment)), option);
+    const std::string name(trimmed(assignment.substr(0, sign)));
     for (const auto& other : values) {
       if (other.first == name) throw UsageError(echoed(name) + " is given twice", option);
     }
-    values.emplace_back(name, parse_value(part.substr(sign + 1), option + ", " + name));
+    values.emplace_back(name, parse_value(assignment.substr(sign + 1), option + ", " + name));
   }
   return values;
 }

@@ -12,7 +12,7 @@
 #include "spec/spec_types.hpp"
 
 // Readers of the values of options. Every reader throws UsageError with what was found, what was
-// expected, and the option as the place.
+// expected, and the option as the location.
 namespace coordreq {
 
 [[noreturn]] void fail_value(const std::string& expected, const std::string& found,
@@ -36,15 +36,15 @@ struct WholeNumber {
   }
 };
 
-/// One of a few words.
+/// One of a few names.
 template <class Meaning>
 struct OneOf {
-  std::vector<std::pair<const char*, Meaning>> words;
+  std::vector<std::pair<const char*, Meaning>> choices;
   const char* others = "";  ///< what else there may be, for the message
 
   Meaning operator()(const std::string& text, const std::string& option) const {
-    for (const auto& [word, meaning] : words) {
-      if (text == word) return meaning;
+    for (const auto& [choice, meaning] : choices) {
+      if (text == choice) return meaning;
     }
     fail_value(expected(), text, option);
   }
@@ -52,9 +52,9 @@ struct OneOf {
   [[nodiscard]] std::string expected() const {
     std::string text;
     const std::string_view last = others;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      const bool is_last = last.empty() && i + 1 == words.size();
-      text += std::string(i == 0 ? "" : is_last ? " or " : ", ") + words[i].first;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      const bool is_last = last.empty() && i + 1 == choices.size();
+      text += std::string(i == 0 ? "" : is_last ? " or " : ", ") + choices[i].first;
     }
     return last.empty() ? text : text + " or " + others;
   }
@@ -88,7 +88,7 @@ struct StepBounds {
                                          const std::string& option, const StepBounds& bounds = {});
 
 /// The memory that this process may use, in bytes: what the machine has, or the lowest limit of the control
-/// groups (containers) it runs in if that is lower. Nothing if the system does not tell.
+/// groups (containers) it runs in if that is lower. Nothing if the system does not report it.
 [[nodiscard]] std::optional<std::uint64_t> available_memory();
 
 }  // namespace coordreq

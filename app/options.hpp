@@ -22,7 +22,7 @@ namespace coordreq {
 ///
 /// Values are read once the whole line has been understood, in the order of declaration. A reader
 /// (option_values.hpp) is given the text and the long name of the option, and throws UsageError with that as
-/// the place. What is read into must outlive this object's use by the parser.
+/// the location. What is read into must outlive this object's use by the parser.
 class Options {
  public:
   using Take = std::function<void(const std::string& text, const std::string& option)>;
@@ -30,7 +30,7 @@ class Options {
   /// An argument without the name of an option.
   struct Argument {
     std::string name;   ///< "SPEC"
-    std::string takes;  ///< words, or the kind of file; empty: the kind is the name
+    std::string takes;  ///< literals, or the kind of file; empty: the kind is the name
     bool is_required = true;
     std::vector<std::string>* all = nullptr;  ///< where they go: one or more of them,
     std::string* one = nullptr;               ///< or one

@@ -11,16 +11,16 @@
 
 namespace coordreq {
 
-/// Prints what a command has found: as it is with --json, else in words, which are made of nothing but it,
+/// Prints what a command has found: as it is with --json, else as text, which is made of nothing but it,
 /// unless --quiet.
-void print_answer(const CommonOptions& asked, const Json& answer,
-                  const std::function<std::string(const Json&)>& in_words);
+void print_answer(const CommonOptions& args, const Json& answer,
+                  const std::function<std::string(const Json&)>& to_text);
 
 /// Prints warnings to standard error, a line each, unless --quiet. Of several analyses each line is printed
 /// once.
 class PrintedWarnings {
  public:
-  explicit PrintedWarnings(const CommonOptions& asked) : is_quiet_(asked.quiet) {}
+  explicit PrintedWarnings(const CommonOptions& args) : is_quiet_(args.quiet) {}
 
   /// @param warnings of warnings_json()
   /// @param subject one of several things that were analysed; empty: the only one

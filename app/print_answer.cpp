@@ -5,12 +5,12 @@
 
 namespace coordreq {
 
-void print_answer(const CommonOptions& asked, const Json& answer,
-                  const std::function<std::string(const Json&)>& in_words) {
-  if (asked.json) {
+void print_answer(const CommonOptions& args, const Json& answer,
+                  const std::function<std::string(const Json&)>& to_text) {
+  if (args.json) {
     write_output(json_text(answer));
-  } else if (!asked.quiet) {
-    write_output(in_words(answer));
+  } else if (!args.quiet) {
+    write_output(to_text(answer));
   }
 }
 

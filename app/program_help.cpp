@@ -8,9 +8,9 @@
 namespace coordreq {
 namespace {
 
-bool is_literal(const std::string& word) {
-  return !word.empty() &&
-         std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::isupper(c); });
+bool is_literal(const std::string& term) {
+  return !term.empty() &&
+         std::none_of(term.begin(), term.end(), [](unsigned char c) { return std::isupper(c); });
 }
 
 bool takes_many(const CLI::Option& option) {
@@ -53,13 +53,13 @@ CommandHelp read_command(const CLI::App& command) {
 
 }  // namespace
 
-std::vector<std::string> ValueHelp::words() const {
-  std::vector<std::string> words;
-  std::istringstream parts(text);
-  for (std::string word; std::getline(parts, word, '|');) {
-    if (is_literal(word)) words.push_back(word);
+std::vector<std::string> ValueHelp::literals() const {
+  std::vector<std::string> literals;
+  std::istringstream terms(text);
+  for (std::string term; std::getline(terms, term, '|');) {
+    if (is_literal(term)) literals.push_back(term);
   }
-  return words;
+  return literals;
 }
 
 std::string ValueHelp::file_pattern() const {

@@ -7,18 +7,18 @@
 namespace CLI {
 class App;
 }
-/// Scripts that make a shell complete commands, options, their words, and files by their kind. What they
-/// offer is in the help that they are made of; nothing is asked of the program while the user types.
+/// Scripts that make a shell complete commands, options, their literals, and files by their kind. What they
+/// offer is in the help that they are made of; the program does not run while the user types.
 namespace coordreq {
 
 /// The help on the value of an option or an argument.
 struct ValueHelp {
-  /// As the help prints it: "FILE", "csv|scs", "random|VALUES". Words in lower case stand for themselves,
-  /// words in capitals for something else. Empty: nothing is taken, it is a flag.
+  /// As the help prints it: "FILE", "csv|scs", "random|VALUES". Terms in lower case are literals,
+  /// those in capitals placeholders. Empty: it takes no value, it is a flag.
   std::string text;
 
-  /// The words that stand for themselves.
-  [[nodiscard]] std::vector<std::string> words() const;
+  /// The terms that stand for themselves.
+  [[nodiscard]] std::vector<std::string> literals() const;
   /// The files to offer, as a pattern for their names: "*.json" for SPEC, "*.h5" for RESULTS, "*" for FILE;
   /// empty if it is no file.
   [[nodiscard]] std::string file_pattern() const;

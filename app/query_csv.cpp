@@ -129,10 +129,10 @@ std::string line_of_answers(const StateAnswer& answer, const QueryForm& form) {
 
 std::string answer_csv_header(const QueryForm& form, const std::vector<std::string>& extra) {
   std::string line = header_of_answers(form);
-  const std::string taken = "," + line + ",";
+  const std::string used = "," + line + ",";
   for (const std::string& name : extra) {
-    const bool is_taken = taken.find("," + csv_field(name) + ",") != std::string::npos;
-    line += "," + csv_field((is_taken ? "extra:" : "") + name);
+    const bool is_used = used.find("," + csv_field(name) + ",") != std::string::npos;
+    line += "," + csv_field((is_used ? "extra:" : "") + name);
   }
   return line + "\n";
 }
@@ -140,7 +140,7 @@ std::string answer_csv_header(const QueryForm& form, const std::vector<std::stri
 std::string answer_csv_line(const StateAnswer& answer, const QueryForm& form,
                             const std::vector<StateReader::Extra>& extra) {
   std::string line = line_of_answers(answer, form);
-  for (const StateReader::Extra& own : extra) line += "," + csv_field(own.value);
+  for (const StateReader::Extra& column : extra) line += "," + csv_field(column.value);
   return line + "\n";
 }
 

@@ -40,11 +40,11 @@ Json outside_json(const UniformGrid& grid, const Location& location) {
   }
   json["reason"] = "beyond";
   json["side"] = location.above ? "above" : "below";
-  json["rule"] = outside_word(location.above ? dimension.above : dimension.below);
+  json["rule"] = outside_name(location.above ? dimension.above : dimension.below);
   return json;
 }
 
-/// A number of steps, or null and a word why there is none.
+/// A number of steps, or null and a status that says why there is none.
 void add_steps(Json& json, const std::string& name, std::int32_t steps, const std::string& status,
                const ResultsReader& results) {
   const bool finite = steps >= 0 && steps != kUnbounded;
@@ -73,7 +73,7 @@ Json class_json(const ProblemSpec& spec, const std::string& name, const std::vec
   return json;
 }
 
-/// Steps of a field over partitions.
+/// Steps of a field by partition.
 void add_steps(Json& json, const std::string& name, std::int32_t steps, const std::string& path,
                std::size_t p, const ResultsReader& results) {
   const Field& field = results.field(path);

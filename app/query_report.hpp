@@ -24,8 +24,8 @@ struct QueryForm {
   const ResultsReader& results;
   std::vector<AnswerPolicy> policies;   ///< of classes
   std::vector<AnswerPolicy> of_agents;  ///< of agents
-  std::vector<const Field*> numbers;    ///< over cells alone, or over partitions and cells
-  std::vector<const Field*> others;     ///< that have sections of their own
+  std::vector<const Field*> numbers;    ///< by cell alone, or by partition and cell
+  std::vector<const Field*> others;     ///< that have separate sections
 
   [[nodiscard]] const ProblemSpec& spec() const { return results.spec(); }
   [[nodiscard]] static bool is_of_partitions(const Field& field) {
@@ -34,11 +34,11 @@ struct QueryForm {
 };
 
 /// Prints what `query` has found of a state.
-void print_state(const CommonOptions& asked, const StateAnswer& answer, const QueryForm& form);
+void print_state(const CommonOptions& args, const StateAnswer& answer, const QueryForm& form);
 
-/// An answer as a document, on one line, in words. @param state that was asked for
+/// An answer as a document, on one line, as text. @param state of the query
 [[nodiscard]] Json answer_json(const StateAnswer& answer, const QueryForm& form);
-/// @param extra what stood beside the state, under the key `extra`; null: is not told
+/// @param extra what stood beside the state, under the key `extra`; null: left out
 [[nodiscard]] std::string answer_json_line(const StateAnswer& answer, const QueryForm& form,
                                            const std::vector<StateReader::Extra>* extra);
 [[nodiscard]] std::string answer_text(const Json& answer, const std::vector<Rational>& state,
@@ -53,13 +53,13 @@ void print_state(const CommonOptions& asked, const StateAnswer& answer, const Qu
 [[nodiscard]] std::vector<Rational> values_of(const ProblemSpec& spec,
                                               const std::vector<std::int32_t>& inputs, std::size_t action);
 
-/// An attribute that the spec tells. @pre the field has it
+/// An attribute that the spec gives. @pre the field has it
 [[nodiscard]] std::int64_t integer_attribute(const Field& field, const std::string& name);
 
-/// The meaning of a word of the flags, see FieldQuery::meanings.
-[[nodiscard]] std::string status_words(const Field& field, const std::string& status);
+/// The meaning of a name of the flags, see FieldQuery::meanings.
+[[nodiscard]] std::string status_text(const Field& field, const std::string& status);
 /// A value of a document by its key, which stands beside its `KEY_status`. @param steps_text of steps
-[[nodiscard]] std::string value_words(const Field& field, const Json& of, const std::string& key,
-                                      const std::function<std::string(const Json& steps)>& steps_text);
+[[nodiscard]] std::string value_text_of(const Field& field, const Json& of, const std::string& key,
+                                        const std::function<std::string(const Json& steps)>& steps_text);
 
 }  // namespace coordreq

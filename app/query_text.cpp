@@ -18,13 +18,13 @@ constexpr std::size_t kMostTuples = 6;
 constexpr std::size_t kMostNames = 12;
 
 /// A number at a length that can be read: exact if that is short, else rounded to six digits.
-std::string shown(const Rational& value) {
+std::string number_text(const Rational& value) {
   constexpr std::size_t kShort = 12;
   std::string text = to_text(value);
   return text.size() <= kShort ? text : fmt::format("{:.6g}", nearest_double(value));
 }
 
-/// The document that --json prints in words. Numbers in it are rounded: exact ones are looked up.
+/// The document that --json prints, as text. Numbers in it are rounded: exact ones are looked up.
 class AnswerText {
  public:
   AnswerText(const Json& answer, const std::vector<Rational>& state, const QueryForm& form)
@@ -59,7 +59,8 @@ class AnswerText {
     facts.emplace_back("leaves the safe set", collision_text(answer_["collision_time"]));
     for (const Field* const field : form_.numbers) {
       if (!QueryForm::is_of_partitions(*field))
-        facts.emplace_back(field->display.query.words, value_text(*field, answer_, field->display.query.name));
+        facts.emplace_back(field->display.query.words,
+                           value_text(*field, answer_, field->display.query.name));
     }
     facts.emplace_back("guarantee", guarantee_of_file(text_of(answer_["guarantee"]), form_.spec()));
     return facts_text(facts);
@@ -73,7 +74,7 @@ class AnswerText {
   [[nodiscard]] std::string state_text() const {
     std::string text;
     for (std::size_t i = 0; i < grid_.size(); ++i)
-      text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", grid_[i].name, shown(state_[i]));
+      text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", grid_[i].name, number_text(state_[i]));
     return text;
   }
 
@@ -83,9 +84,9 @@ class AnswerText {
     std::string text;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       text += text.empty() ? "" : ", ";
-      text += grid_[i].discrete
-                  ? fmt::format("{} = {}", grid_[i].name, shown(box.centre[i]))
-                  : fmt::format("{} in [{}, {})", grid_[i].name, shown(box.lower[i]), shown(box.upper[i]));
+      text += grid_[i].discrete ? fmt::format("{} = {}", grid_[i].name, number_text(box.centre[i]))
+                                : fmt::format("{} in [{}, {})", grid_[i].name, number_text(box.lower[i]),
+                                              number_text(box.upper[i]));
     }
     return text;
   }
@@ -95,10 +96,10 @@ class AnswerText {
     std::size_t i = 0;
     while (outside["state"] != grid_[i].name) ++i;
     const GridDimension& dimension = grid_[i];
-    const std::string value = fmt::format("{} = {}", dimension.name, shown(state_[i]));
+    const std::string value = fmt::format("{} = {}", dimension.name, number_text(state_[i]));
     if (outside["reason"] == "off_grid") {
-      return fmt::format("no state of the system: {} is none of {} + k * {}", value, shown(dimension.first),
-                         shown(dimension.step));
+      return fmt::format("no state of the system: {} is none of {} + k * {}", value,
+                         number_text(dimension.first), number_text(dimension.step));
     }
     const std::string side = text_of(outside["side"]);
     if (!answer_["safe"].is_null()) {
@@ -109,7 +110,8 @@ class AnswerText {
     const Rational low = dimension.first - dimension.radius();
     const Rational high = dimension.point(dimension.count - 1) + dimension.radius();
     return fmt::format("outside: {} lies {} the domain, {} in [{}, {}{}; the results do not cover it", value,
-                       side, dimension.name, shown(low), shown(high), dimension.discrete ? "]" : ")");
+                       side, dimension.name, number_text(low), number_text(high),
+                       dimension.discrete ? "]" : ")");
   }
 
   [[nodiscard]] std::string collision_text(const Json& time) const {
@@ -118,9 +120,9 @@ class AnswerText {
     return "possibly within " + steps_text(time) + ", even with full coordination";
   }
 
-  /// A value by its key, or the word that it means.
+  /// A value by its key, or the name that it stands for.
   [[nodiscard]] std::string value_text(const Field& field, const Json& of, const std::string& name) const {
-    return value_words(field, of, name, [this](const Json& steps) { return steps_text(steps); });
+    return value_text_of(field, of, name, [this](const Json& steps) { return steps_text(steps); });
   }
 
   /// The policies, before all others what the spec asks for.
@@ -215,7 +217,7 @@ class AnswerText {
   [[nodiscard]] std::string tuple_text(const std::vector<std::int32_t>& inputs, std::size_t action) const {
     std::string text;
     for (const Rational& value : values_of(form_.spec(), inputs, action))
-      text += (text.empty() ? "" : ", ") + shown(value);
+      text += (text.empty() ? "" : ", ") + number_text(value);
     return inputs.size() == 1 ? text : "(" + text + ")";
   }
 
@@ -224,7 +226,7 @@ class AnswerText {
   [[nodiscard]] std::string sections_text() const {
     std::string text;
     Facts facts;
-    bool is_told = true;
+    bool is_displayed = true;
     for (std::size_t i = 0; i < form_.others.size(); ++i) {
       const Field& field = *form_.others[i];
       const FieldQuery& query = field.display.query;
@@ -236,8 +238,8 @@ class AnswerText {
         if (i > 0) text += facts_text(std::exchange(facts, {}));
         text += "\n" + first + query.heading + "\n";
       }
-      if (begins) is_told = true;
-      if (is_told) facts.emplace_back("  " + query.words, section_text(field, entry, is_told));
+      if (begins) is_displayed = true;
+      if (is_displayed) facts.emplace_back("  " + query.words, section_text(field, entry, is_displayed));
     }
     return facts.empty() ? text : text + facts_text(facts);
   }
@@ -249,15 +251,15 @@ class AnswerText {
     if (field.kind != FieldKind::choice)
       return names_text(field, entry[query.name].get<std::vector<std::string>>());
     is_chosen = entry["status"] == query.name;
-    return is_chosen ? text_of(entry[query.name]) : status_words(field, text_of(entry["status"]));
+    return is_chosen ? text_of(entry[query.name]) : status_text(field, text_of(entry["status"]));
   }
 
   /// "up 1.3e-07, down 0.002".
   [[nodiscard]] static std::string probabilities_text(const Json& of_entries) {
     std::string text;
-    std::size_t shown = 0;
+    std::size_t listed = 0;
     for (const auto& [name, value] : of_entries.items()) {
-      if (++shown > kMostNames) return text + " ...";
+      if (++listed > kMostNames) return text + " ...";
       text += (text.empty() ? "" : ", ") + name + " " + probability_text(value);
     }
     return text;

@@ -30,20 +30,20 @@ std::int64_t integer_attribute(const Field& field, const std::string& name) {
   return std::get<std::int64_t>(found->value);
 }
 
-std::string status_words(const Field& field, const std::string& status) {
+std::string status_text(const Field& field, const std::string& status) {
   const auto& meanings = field.display.query.meanings;
   if (const auto found = meanings.find(status); found != meanings.end()) return found->second;
-  return words_of(status);
+  return label_of(status);
 }
 
-std::string value_words(const Field& field, const Json& of, const std::string& key,
-                        const std::function<std::string(const Json& steps)>& steps_text) {
+std::string value_text_of(const Field& field, const Json& of, const std::string& key,
+                          const std::function<std::string(const Json& steps)>& steps_text) {
   const std::string status = text_of(of[key + "_status"]);
   if (status == "number") return of[key].is_number_float() ? probability_text(of[key]) : grouped(of[key]);
   if (status == "at_least") return "at least " + steps_text(of[key]);
-  if (status != "steps") return status_words(field, status);
-  return of[key] == 0 && field.display.query.meanings.contains("0") ? status_words(field, "0")
-                                                                  : steps_text(of[key]);
+  if (status != "steps") return status_text(field, status);
+  return of[key] == 0 && field.display.query.meanings.contains("0") ? status_text(field, "0")
+                                                                    : steps_text(of[key]);
 }
 
 }  // namespace coordreq

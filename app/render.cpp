@@ -53,7 +53,7 @@ std::string sides_text(const Json& outside) {
   return fmt::format("{} below, {} above", text_of(outside["below"]), text_of(outside["above"]));
 }
 
-std::string words_of(std::string key) {
+std::string label_of(std::string key) {
   std::replace(key.begin(), key.end(), '_', ' ');
   return key;
 }
@@ -88,9 +88,9 @@ std::string others_text(const Json& document, const std::vector<std::string>& kn
     Facts facts;
     for (const auto& [key, value] : section.items()) {
       if (value.is_primitive() && !value.is_null())
-        facts.emplace_back("  " + words_of(key), value.is_string() ? line_of(value) : compact_json(value));
+        facts.emplace_back("  " + label_of(key), value.is_string() ? line_of(value) : compact_json(value));
     }
-    text += fmt::format("\n{}\n{}", words_of(name), facts_text(facts));
+    text += fmt::format("\n{}\n{}", label_of(name), facts_text(facts));
   }
   return text;
 }

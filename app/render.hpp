@@ -10,8 +10,8 @@
 #include "base/json.hpp"
 #include "results/results_reader.hpp"
 
-// The pieces of the texts of all commands: each text is rendered from the document that --json prints.
-// The pieces of answers in CSV.
+// Elements of the texts of all commands: each text is rendered from the document that --json prints.
+// Elements of answers in CSV.
 namespace coordreq {
 
 [[nodiscard]] std::int64_t number_of(const Json& json);
@@ -31,7 +31,7 @@ namespace coordreq {
 [[nodiscard]] std::string sides_text(const Json& outside);
 
 /// "approach delay" of "approach_delay".
-[[nodiscard]] std::string words_of(std::string key);
+[[nodiscard]] std::string label_of(std::string key);
 
 struct Column {
   std::string heading;
@@ -45,8 +45,8 @@ struct Column {
 using Facts = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string facts_text(const Facts& facts);
 
-/// A section for each member that a text has no words of its own for: numbers, texts and flags as they are.
-/// @param known members that it has words for
+/// A section for each member that a text does not render itself: numbers, texts and flags as they are.
+/// @param known members that it renders
 [[nodiscard]] std::string others_text(const Json& document, const std::vector<std::string>& known);
 
 /// A number of steps, "inf" without end.

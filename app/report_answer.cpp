@@ -131,8 +131,8 @@ class PartitionAnswer {
 
   /// |Z_k|; nothing if the analysis stopped before.
   [[nodiscard]] std::optional<std::uint64_t> layer_size(std::int64_t k) const {
-    const auto place = static_cast<std::size_t>(k);
-    if (place < stored_.layer_sizes.size()) return stored_.layer_sizes[place];
+    const auto index = static_cast<std::size_t>(k);
+    if (index < stored_.layer_sizes.size()) return stored_.layer_sizes[index];
     if (stored_.truncated()) return std::nullopt;
     return stored_.layer_sizes.back();
   }
@@ -204,7 +204,7 @@ class Answers {
     return html;
   }
 
-  /// With many partitions those whose pictures are shown stand in the open.
+  /// With many partitions only those with pictures are not folded.
   [[nodiscard]] std::string as_table() const {
     std::vector<std::string> shown, others;
     for (std::size_t p = 0; p < results_.partitions().size(); ++p) {

@@ -29,7 +29,7 @@ const char* no_memory() {
                "validate\"";
 }
 
-/// GMP by itself ends the program where there is no memory, with a line of its own.
+/// GMP would end the program where there is no memory, with its own message.
 void* allocate(std::size_t bytes) {
   void* const block = std::malloc(bytes);
   if (block == nullptr) throw std::bad_alloc();
@@ -48,15 +48,15 @@ void print(std::string_view what) {
 
 constexpr std::size_t kMostEchoed = 200, kKeptAtItsEnd = 20, kLongestLine = 1000;
 
-/// The stretches between marks: cut at the most where they repeat what a user has typed, which is what stands
-/// in quotes.
+/// The spans between quotation marks: cut at the most where they repeat what a user has typed, which is what
+/// stands in quotes.
 std::string with_quotes_cut(std::string_view text) {
   std::string result;
   bool is_quoted = false;
   while (true) {
     const std::size_t end = text.find('\'');
-    const std::string_view part = text.substr(0, end);
-    result += is_quoted ? shortened(part, kMostEchoed, kKeptAtItsEnd) : std::string(part);
+    const std::string_view span = text.substr(0, end);
+    result += is_quoted ? shortened(span, kMostEchoed, kKeptAtItsEnd) : std::string(span);
     if (end == std::string_view::npos) return result;
     result += '\'';
     is_quoted = !is_quoted;
@@ -64,13 +64,13 @@ std::string with_quotes_cut(std::string_view text) {
   }
 }
 
-/// WHAT (WHERE) as one line of a length that can be read, whatever a user has typed: no quoted text, no place
-/// and no word beyond 200 bytes, no line beyond 1,000.
+/// WHAT (WHERE) as one line of a length that can be read, whatever a user has typed: no quoted text, no
+/// location and no unbroken text beyond 200 bytes, no line beyond 1,000.
 std::string error_text(std::string_view what) {
   std::string line = printable(what);
-  if (const std::size_t place = line.rfind(" ("); place != std::string::npos && line.back() == ')') {
-    const std::string where = line.substr(place + 2, line.size() - place - 3);
-    line = line.substr(0, place + 2) + shortened(where, kMostEchoed, kKeptAtItsEnd) + ")";
+  if (const std::size_t location = line.rfind(" ("); location != std::string::npos && line.back() == ')') {
+    const std::string where = line.substr(location + 2, line.size() - location - 3);
+    line = line.substr(0, location + 2) + shortened(where, kMostEchoed, kKeptAtItsEnd) + ")";
   }
   line = with_quotes_cut(line);
   std::string text;

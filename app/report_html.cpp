@@ -54,10 +54,10 @@ std::string html_long_table(const std::vector<std::string>& heads, const std::ve
   return html;
 }
 
-std::string share_text(std::uint64_t part, std::uint64_t whole) {
-  const double percent = 100 * static_cast<double>(part) / static_cast<double>(whole);
-  if (part == 0) return "none";
-  if (part == whole) return "all";
+std::string share_text(std::uint64_t count, std::uint64_t whole) {
+  const double percent = 100 * static_cast<double>(count) / static_cast<double>(whole);
+  if (count == 0) return "none";
+  if (count == whole) return "all";
   if (percent < 0.1) return "less than 0.1 %";
   if (percent > 99.9) return "more than 99.9 %";
   return fmt::format("{:.{}f} %", percent, percent < 10 || percent > 90 ? 1 : 0);

@@ -28,7 +28,7 @@ namespace coordreq {
                                           std::size_t open = 12);
 
 /// "3.3 %" of what; never 0 or 100 unless it is none or all.
-[[nodiscard]] std::string share_text(std::uint64_t part, std::uint64_t whole);
+[[nodiscard]] std::string share_text(std::uint64_t count, std::uint64_t whole);
 
 /// "1 state", "1,234 states".
 [[nodiscard]] std::string states_text(std::uint64_t count);

@@ -19,7 +19,7 @@ std::string number_text(const Rational& value) {
 }
 
 /// "The agents a and b", "The 12 agents".
-std::string agents_words(const ProblemSpec& spec) {
+std::string agents_text(const ProblemSpec& spec) {
   constexpr std::size_t kMostNamed = 5;
   const std::size_t count = spec.agents.size();
   if (count > kMostNamed) return fmt::format("The {} agents", grouped(static_cast<std::uint64_t>(count)));
@@ -99,8 +99,8 @@ std::string meanings(const ProblemSpec& spec, const std::set<std::string>& names
     if (!text.contains(key)) continue;
     for (const auto& [name, value] : text.at(key).items()) {
       if (!used.contains(name) || before.contains(name)) continue;
-      const std::string meant = value.is_string() ? value.get<std::string>() : compact_json(value);
-      html += fmt::format("{}{}", html.empty() ? "" : ", ", html_code(name + " = " + meant));
+      const std::string definition = value.is_string() ? value.get<std::string>() : compact_json(value);
+      html += fmt::format("{}{}", html.empty() ? "" : ", ", html_code(name + " = " + definition));
     }
   }
   return html;
@@ -108,8 +108,8 @@ std::string meanings(const ProblemSpec& spec, const std::set<std::string>& names
 
 std::string safe_text(const ProblemSpec& spec) {
   std::string html = "<p>A state is safe if " + html_code(spec.safe.text);
-  if (const std::string meant = meanings(spec, names_of_safety(spec), {}); !meant.empty())
-    html += ", where " + meant;
+  if (const std::string definitions = meanings(spec, names_of_safety(spec), {}); !definitions.empty())
+    html += ", where " + definitions;
   html += ".";
   if (spec.controller.allow)
     html += " The agents may only choose joint inputs with " + html_code(spec.controller.allow->text) + ".";
@@ -138,15 +138,15 @@ std::string report_task(const ResultsReader& results) {
          fmt::format(
              "<p>{} keep a system safe together and choose new actions every {}. While they are connected "
              "they coordinate; during silence each chooses alone.</p>\n",
-             agents_words(spec), every) +
+             agents_text(spec), every) +
          safe_text(spec);
 }
 
 std::string report_names_of_regions(const ProblemSpec& spec) {
   std::set<std::string> names;
   for (const RequirementSpec& requirement : spec.requirements) names.merge(names_in(requirement.where.text));
-  const std::string meant = meanings(spec, names, names_of_safety(spec));
-  return meant.empty() ? "" : "<p>Here " + meant + ".</p>\n";
+  const std::string definitions = meanings(spec, names, names_of_safety(spec));
+  return definitions.empty() ? "" : "<p>Here " + definitions + ".</p>\n";
 }
 
 std::string report_details(const ResultsReader& results) {

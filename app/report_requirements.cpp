@@ -51,21 +51,21 @@ std::string summary_table(const std::vector<Json>& all, const ProblemSpec& spec)
 }
 
 /// Leads to a sample in the pictures; a script shows it.
-std::string visit_button(std::size_t way, std::size_t sample, const std::string& label,
+std::string visit_button(std::size_t path, std::size_t sample, const std::string& label,
                          const std::string& name) {
   return fmt::format(
-      "<button type=\"button\" class=\"visit\" data-way=\"{}\" data-sample=\"{}\"{} hidden>{}</button>", way,
+      "<button type=\"button\" class=\"visit\" data-way=\"{}\" data-sample=\"{}\"{} hidden>{}</button>", path,
       sample, name.empty() ? "" : " aria-label=\"" + name + "\"", label);
 }
 
-std::string steps_table(std::size_t way, const CounterexampleTable& table) {
+std::string steps_table(std::size_t path, const CounterexampleTable& table) {
   std::vector<std::string> heads;
   for (const std::string& head : table.heads) heads.push_back(html_line(head));
   std::string rows;
   for (std::size_t s = 0; s < table.rows.size(); ++s) {
     std::vector<std::string> cells;
     for (const std::string& cell : table.rows[s]) cells.push_back(html_line(cell));
-    cells.front() += " " + visit_button(way, s, "Show", fmt::format("Show step {} in the picture", s));
+    cells.front() += " " + visit_button(path, s, "Show", fmt::format("Show step {} in the picture", s));
     rows += html_row(cells);
   }
   return "<details><summary>Step by step</summary>\n" + html_table("", heads, rows, "story") +
@@ -75,18 +75,18 @@ std::string steps_table(std::size_t way, const CounterexampleTable& table) {
          "steps.</p></details>\n";
 }
 
-std::string failure(std::size_t& way, const Json& entry, const ProblemSpec& spec) {
+std::string failure(std::size_t& path, const Json& entry, const ProblemSpec& spec) {
   // How many fail and the worst state are in the table above.
   if (entry["counterexample"]["state"].is_null()) return "";
   std::string html = fmt::format("<h3>{}</h3>\n", html_line(entry["name"].get<std::string>()));
   if (!entry["reaches_outside"].is_null())
     html += "<p>" + html_line(capital(outside_text(entry, spec))) + ".</p>\n";
-  if (!has_steps(entry)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
+  if (!has_steps(entry)) return html + "<p>" + visit_button(path++, 0, "Show in the picture", "") + "</p>\n";
   html += "<p>";
   const Counterexample found = counterexample_of(entry);
   for (const std::string& sentence : counterexample_sentences(found, spec)) html += html_line(sentence) + " ";
-  html += "</p>\n<p>" + visit_button(way, 0, "Show in the picture", "") + "</p>\n";
-  return html + steps_table(way++, counterexample_table(found, spec));
+  html += "</p>\n<p>" + visit_button(path, 0, "Show in the picture", "") + "</p>\n";
+  return html + steps_table(path++, counterexample_table(found, spec));
 }
 
 }  // namespace
@@ -112,9 +112,9 @@ std::string report_requirements(const ResultsReader& results) {
                       : fmt::format("<p>{} of {} requirement{} fail{}.</p>\n", grouped(failed),
                                     grouped(all.size()), all.size() == 1 ? "" : "s", failed == 1 ? "s" : "");
   html += summary_table(all, spec) + report_names_of_regions(spec);
-  std::size_t way = 0;
+  std::size_t path = 0;
   for (const Json& entry : all) {
-    if (!entry["holds"].get<bool>()) html += failure(way, entry, spec);
+    if (!entry["holds"].get<bool>()) html += failure(path, entry, spec);
   }
   return html + "</section>\n";
 }

@@ -18,14 +18,14 @@ double worst_value(const GridDimension& dimension, std::int64_t index, bool is_l
   return nearest_double(dimension.point(index) + half);
 }
 
-Json over_json(const ResultsReader& results, const ToleranceQuestion::Over& over) {
-  const GridDimension& dimension = results.grid()[over.state];
-  const std::int64_t best = over.is_large_best ? dimension.count - 1 : 0;
+Json axis_json(const ResultsReader& results, const ToleranceQuestion::Axis& axis) {
+  const GridDimension& dimension = results.grid()[axis.state];
+  const std::int64_t best = axis.is_large_best ? dimension.count - 1 : 0;
   return {{"state", dimension.name},
-          {"unit", results.spec().states[over.state].unit},
-          {"best", over.is_large_best ? "large" : "small"},
-          {"worst_value", worst_value(dimension, dimension.count - 1 - best, over.is_large_best)},
-          {"best_value", worst_value(dimension, best, !over.is_large_best)}};
+          {"unit", results.spec().states[axis.state].unit},
+          {"best", axis.is_large_best ? "large" : "small"},
+          {"worst_value", worst_value(dimension, dimension.count - 1 - best, axis.is_large_best)},
+          {"best_value", worst_value(dimension, best, !axis.is_large_best)}};
 }
 
 /// "p1 from 2.5 m on", "p1 up to 2.5 m".
@@ -38,12 +38,12 @@ std::string bound_text(const Json& entry, const Json& value) {
 }
 
 std::string corner_text(const Json& found, const Json& corner) {
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < corner.size(); ++i) parts.push_back(bound_text(found["over"][i], corner[i]));
-  return fmt::format("{}", fmt::join(parts, ", "));
+  std::vector<std::string> bounds;
+  for (std::size_t i = 0; i < corner.size(); ++i) bounds.push_back(bound_text(found["over"][i], corner[i]));
+  return fmt::format("{}", fmt::join(bounds, ", "));
 }
 
-/// "p1 = 10.5 m, v1 = 3.25 m/s": the ends of the domain that are best in the states asked about.
+/// "p1 = 10.5 m, v1 = 3.25 m/s": the ends of the domain that are best in the states in question.
 std::string best_ends_text(const Json& found) {
   std::vector<std::string> ends;
   for (const Json& entry : found["over"]) {
@@ -74,7 +74,7 @@ std::string interval_text(const Json& entry, const Json& interval) {
 /// "a delay of at least 2 steps (2 s)".
 std::string limit_text(const Json& found) {
   const RequirementTraits& kind = requirement_traits(text_of(found["kind"]));
-  const std::string value = words_of(kind.value);
+  const std::string value = label_of(kind.value);
   const std::string article = value.front() == 'a' ? "an" : "a";
   const Json& limit = found[kind.value];
   return fmt::format("{} {} of at {} {}", article, value, kind.is_upper_limit ? "most" : "least",
@@ -83,11 +83,11 @@ std::string limit_text(const Json& found) {
 
 /// "x1 from -0.995 m", of all of the domain.
 bool is_everywhere(const Json& found) {
-  const Json& over = found["over"];
+  const Json& axes = found["over"];
   const Json& corners = found["corners"];
   if (corners.size() != 1) return false;
-  for (std::size_t i = 0; i < over.size(); ++i)
-    if (corners[0][i] != over[i]["worst_value"]) return false;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (corners[0][i] != axes[i]["worst_value"]) return false;
   return true;
 }
 
@@ -106,10 +106,10 @@ Json require_json(const ResultsReader& results, const ToleranceQuestion& questio
   json[kind.value] = kind.is_probability ? Json(question.risk) : Json(question.steps);
   json["kind"] = kind.key;
   json["over"] = Json::array();
-  for (const ToleranceQuestion::Over& over : question.over) json["over"].push_back(over_json(results, over));
+  for (const ToleranceQuestion::Axis& axis : question.axes) json["over"].push_back(axis_json(results, axis));
   json["given"] = Json::object();
   std::vector<bool> is_named(results.grid().size(), false);
-  for (const ToleranceQuestion::Over& over : question.over) is_named[over.state] = true;
+  for (const ToleranceQuestion::Axis& axis : question.axes) is_named[axis.state] = true;
   for (const TableSelection::Slice& slice : question.given) {
     const GridDimension& dimension = results.grid()[slice.dimension];
     json["given"][dimension.name] = nearest_double(dimension.point(slice.index));
@@ -122,13 +122,13 @@ Json require_json(const ResultsReader& results, const ToleranceQuestion& questio
   for (const FrontierCorner& corner : tolerance.corners) {
     Json& values = json["corners"].emplace_back(Json::array());
     for (std::size_t i = 0; i < corner.size(); ++i) {
-      const ToleranceQuestion::Over& over = question.over[i];
-      values.push_back(worst_value(results.grid()[over.state], corner[i], over.is_large_best));
+      const ToleranceQuestion::Axis& axis = question.axes[i];
+      values.push_back(worst_value(results.grid()[axis.state], corner[i], axis.is_large_best));
     }
   }
-  if (question.over.size() > 1) return json;
+  if (question.axes.size() > 1) return json;
   json["intervals"] = Json::array();
-  const GridDimension& dimension = results.grid()[question.over.front().state];
+  const GridDimension& dimension = results.grid()[question.axes.front().state];
   for (const auto& [first, last] : tolerance.intervals)
     json["intervals"].push_back({worst_value(dimension, first, true), worst_value(dimension, last, false)});
   return json;

@@ -49,7 +49,7 @@ std::string time_cell(const Json& time) {
   return time.is_null() ? "never" : grouped(time);
 }
 
-/// A row but for its number. @param key what states are judged by; empty: not shown
+/// A row without its number. @param key what states are judged by; empty: left out
 std::vector<std::string> table_row(const Json& sample, const std::string& key, const ProblemSpec& spec) {
   const bool is_step = sample.contains("action");
   std::vector<std::string> row;
@@ -62,11 +62,11 @@ std::vector<std::string> table_row(const Json& sample, const std::string& key, c
   return row;
 }
 
-/// What requirements about a goal say in words; of a goal to stay at, and to return to, other ones.
-struct GoalWords {
+/// Texts of requirements about a goal; they differ for a goal to stay at and one to return to.
+struct GoalTexts {
   std::string claim, failing, never, arrived, cannot, lost;
 };
-GoalWords goal_words(GoalThen then) {
+GoalTexts goal_texts(GoalThen then) {
   if (then == GoalThen::stay) {
     return {.claim = "outside the goal for at most {samples}",
             .failing = "may be outside the goal for {samples}",
@@ -94,15 +94,15 @@ GoalWords goal_words(GoalThen then) {
 
 std::string end_text(const Json& path, const ProblemSpec& spec) {
   const std::string end = text_of(path["end"]);
-  const GoalWords words = goal_words(spec.goal_then);
+  const GoalTexts texts = goal_texts(spec.goal_then);
   if (end == "outside_safe_set") return "the state is no longer safe";
   if (end == "left_domain") return "the state leaves the domain, " + side_text(path["left_side"]);
   if (end == "unsafe_between_samples") return "the motion to the next sample is not safe";
-  if (end == "arrived") return words.arrived;
+  if (end == "arrived") return texts.arrived;
   if (end == "never_arrives")
     return (path["end_sample"].is_null() ? "the state may have left the domain: " : "the state repeats: ") +
-           words.never;
-  if (end == "time_lost") return words.lost;
+           texts.never;
+  if (end == "time_lost") return texts.lost;
   if (end == "not_allowed") return "their joint input is one that 'allow' forbids";
   if (end == "no_common_action")
     return "some class has no action that suits all cells that look the same to it";
@@ -144,8 +144,8 @@ bool is_all_alone(const Json& name, const ProblemSpec& spec) {
 std::string nearest_text(const Json& entry, const ProblemSpec& spec) {
   if (!entry.contains("nearest") || entry["nearest"].is_null()) return "";
   const Json& nearest = entry["nearest"];
-  const auto is_meant = [&](const StateSpec& state) { return state.name == nearest["state"]; };
-  const auto state = std::find_if(spec.states.begin(), spec.states.end(), is_meant);
+  const auto is_named = [&](const StateSpec& state) { return state.name == nearest["state"]; };
+  const auto state = std::find_if(spec.states.begin(), spec.states.end(), is_named);
   const std::string unit = state->unit.empty() ? "" : " " + printable(state->unit);
   const bool is_from = nearest["best"] == "large";
   return fmt::format("  With {} {} {:.6g}{}{} and the other states unchanged, the delay is long enough.\n",
@@ -170,11 +170,11 @@ std::string worst_text(const Json& kind, const Json& value, const Json& status, 
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
   if (status == "not_in_silence_set") return "is not safe with the fallback rule";
-  if (status == "goal_cannot_be_forced") return goal_words(spec.goal_then).cannot;
+  if (status == "goal_cannot_be_forced") return goal_texts(spec.goal_then).cannot;
   const RequirementTraits& traits = requirement_traits(kind.get<std::string>());
   const bool is_risk = traits.is_probability;
   const bool is_arrival = traits.kind == RequirementKind::max_arrival;
-  const std::string text = is_arrival ? goal_words(spec.goal_then).failing : traits.failing;
+  const std::string text = is_arrival ? goal_texts(spec.goal_then).failing : traits.failing;
   return fmt::format(fmt::runtime(text),
                      fmt::arg("steps", is_risk ? "" : steps_text(value.get<std::int64_t>(), spec)),
                      fmt::arg("samples", is_risk ? "" : count_of(value.get<std::int64_t>(), "sample")),
@@ -206,7 +206,7 @@ std::string claim_text(const Json& entry, const ProblemSpec& spec) {
   const std::string steps = has_limit ? steps_text(number_of(entry[kind.key]), spec) : "";
   const std::string samples = has_limit ? count_of(number_of(entry[kind.key]), "sample") : "";
   const bool is_arrival = kind.kind == RequirementKind::max_arrival;
-  const std::string text = is_arrival ? goal_words(spec.goal_then).claim : kind.claim;
+  const std::string text = is_arrival ? goal_texts(spec.goal_then).claim : kind.claim;
   return fmt::format(fmt::runtime(text), fmt::arg("steps", steps), fmt::arg("samples", samples),
                      fmt::arg("partition", entry["partition"].is_null() ? "" : text_of(entry["partition"])));
 }
@@ -246,7 +246,7 @@ CounterexampleTable counterexample_table(const Counterexample& found, const Prob
   CounterexampleTable table;
   table.heads = {"step"};
   for (const StateSpec& state : spec.states) table.heads.push_back(column_heading(state.name, state.unit));
-  if (!key.empty()) table.heads.push_back(words_of(key));
+  if (!key.empty()) table.heads.push_back(label_of(key));
   table.heads.emplace_back("collision time");
   table.numbers = table.heads.size();
   table.heads.emplace_back("action");
@@ -263,13 +263,13 @@ CounterexampleTable counterexample_table(const Counterexample& found, const Prob
 
 std::string counterexample_text(const Counterexample& found, const ProblemSpec& spec,
                                 const std::string& indent) {
-  CounterexampleTable parts = counterexample_table(found, spec);
-  std::vector<Table::Align> columns(parts.heads.size(), Table::Align::left);
-  std::fill_n(columns.begin(), parts.numbers, Table::Align::right);
+  CounterexampleTable entries = counterexample_table(found, spec);
+  std::vector<Table::Align> columns(entries.heads.size(), Table::Align::left);
+  std::fill_n(columns.begin(), entries.numbers, Table::Align::right);
   Table table(columns);
-  parts.heads.front() = indent + parts.heads.front();
-  table.add(parts.heads);
-  for (const std::vector<std::string>& row : parts.rows) table.add(row);
+  entries.heads.front() = indent + entries.heads.front();
+  table.add(entries.heads);
+  for (const std::vector<std::string>& row : entries.rows) table.add(row);
   return table.text();
 }
 
@@ -279,7 +279,7 @@ namespace {
 void add_reach(const Json& path, const ProblemSpec& spec, std::vector<std::string>& sentences) {
   if (path["end"] != "outside_safe_set" || path["end_sample"].is_null()) return;
   if (spec.abstraction.safe != Membership::inner) return;
-  std::vector<std::string> parts;
+  std::vector<std::string> ends;
   for (const StateBound& bound : state_bounds(spec.safe, spec.states.size())) {
     const StateSpec& state = spec.states[bound.state];
     if (state.discrete) continue;
@@ -288,9 +288,9 @@ void add_reach(const Json& path, const ProblemSpec& spec, std::vector<std::strin
     const double end = bound.is_upper ? centre + half : centre - half;
     const bool is_kept = bound.is_upper ? centre <= limit : centre >= limit;
     const bool is_passed = bound.is_upper ? end > limit : end < limit;
-    if (is_kept && is_passed) parts.push_back(fmt::format("{} = {:.6g}", state.name, end));
+    if (is_kept && is_passed) ends.push_back(fmt::format("{} = {:.6g}", state.name, end));
   }
-  if (!parts.empty()) sentences.push_back(fmt::format("The last cell reaches {}.", listed_words(parts)));
+  if (!ends.empty()) sentences.push_back(fmt::format("The last cell reaches {}.", list_text(ends)));
 }
 
 /// Adds the proven number beside the seen one: enclosures are wider than motion.

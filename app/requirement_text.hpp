@@ -7,14 +7,14 @@
 #include "base/json.hpp"
 #include "spec/spec_types.hpp"
 
-// A requirement in words, from what requirement_json() says of it: `own` in all that follows. `analyze`,
-// JUnit reports and pages tell it alike.
+// A requirement as text, from requirement_json(): `entry` in all that follows. `analyze`,
+// JUnit reports and pages use the same texts.
 namespace coordreq {
 
 /// "3 steps (1.5 s)".
 [[nodiscard]] std::string steps_text(std::int64_t steps, const ProblemSpec& spec);
 
-/// "delay of alone at least 20 steps (0.2 s)", "in the invariance set": what is asked of each cell.
+/// "delay of alone at least 20 steps (0.2 s)", "in the invariance set": what each cell has to satisfy.
 [[nodiscard]] std::string claim_text(const Json& entry, const ProblemSpec& spec);
 
 /// The key of the worst value of its states: "least_delay", "longest_arrival" or "least_approach_delay".
@@ -25,7 +25,7 @@ namespace coordreq {
 [[nodiscard]] std::string worst_text(const Json& kind, const Json& value, const Json& status,
                                      const ProblemSpec& spec);
 
-/// Where the region may reach, and what ends that. @pre own["reaches_outside"] is there
+/// Where the region may reach, and what ends that. @pre entry["reaches_outside"] is there
 [[nodiscard]] std::string outside_text(const Json& entry, const ProblemSpec& spec);
 
 /// Why it fails, in one line; empty if it holds.
@@ -33,7 +33,7 @@ namespace coordreq {
 /// failure_line() with its counterexample: lines that end in newlines.
 [[nodiscard]] std::string failure_text(const Json& entry, const ProblemSpec& spec);
 
-/// The counterexample has steps to tell of, not just the worst cell. @pre it fails
+/// The counterexample has steps to describe, not just the worst cell. @pre it fails
 [[nodiscard]] bool has_steps(const Json& entry);
 
 /// A counterexample with a first state, as JSON has it.

@@ -62,14 +62,15 @@ std::string outcome_text(const std::string& outcome) {
 std::string outcomes_text(const Json& simulation) {
   const Json& traces = simulation["traces"];
   // Silent agents may leave K.
-  const auto words = [&](const std::string& outcome) {
+  const auto text_of_outcome = [&](const std::string& outcome) {
     const bool is_silent = simulation.contains("silent") && outcome == "completed";
     return is_silent ? "stayed in the safe set" : outcome_text(outcome);
   };
-  if (traces.size() == 1) return words(text_of(traces.front()["outcome"]));
+  if (traces.size() == 1) return text_of_outcome(text_of(traces.front()["outcome"]));
   std::string text;
   for (const auto& [outcome, count] : simulation["outcomes"].items()) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), words(outcome));
+    if (count > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), text_of_outcome(outcome));
   }
   return text;
 }
@@ -260,9 +261,9 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
 
 }  // namespace
 
-void print_simulation(const CommonOptions& asked, const Simulation& simulation, const ResultsReader& results,
+void print_simulation(const CommonOptions& args, const Simulation& simulation, const ResultsReader& results,
                       const SimulationOptions& options) {
-  print_answer(asked, simulation_json(simulation, results, options),
+  print_answer(args, simulation_json(simulation, results, options),
                [&results](const Json& found) { return simulation_text(found, results.spec()); });
 }
 

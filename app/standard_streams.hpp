@@ -10,7 +10,7 @@ namespace coordreq {
 /// sizes errors instead of signals, and reading of standard input that fails an error instead of its end.
 void hold_standard_streams();
 
-/// Nobody reads standard output any more. Thrown so that temporary files are removed on the way out.
+/// Standard output is closed at the other end. Thrown so that temporary files are removed on the way out.
 struct ClosedPipe {};
 
 /// Ends the program as the signal would have done that a closed pipe sends.
@@ -23,7 +23,7 @@ struct ClosedPipe {};
 /// or an IoError too where the caller has set that signal to be ignored
 void write_output(std::string_view text);
 
-/// Writes `text` to standard error as far as possible; there is nobody to tell about a failure.
+/// Writes `text` to standard error as far as possible; a failure cannot be reported.
 void write_diagnostics(std::string_view text) noexcept;
 
 /// Shows `text` in place of what this has shown before, in one line of the terminal that standard error is;

@@ -29,10 +29,10 @@ std::int64_t steps_or_time(const std::string& text, const DynamicsSpec& dynamics
       dynamics.unit.empty() ? "a number of steps"
                             : fmt::format("a number of steps, or a time, e.g. 2{}{}",
                                           is_time_unit(dynamics.unit) ? "" : " ", printable(dynamics.unit));
-  const std::string own(trimmed(text));
-  const std::optional<Rational> time = time_of(own, dynamics.unit);
+  const std::string amount(trimmed(text));
+  const std::optional<Rational> time = time_of(amount, dynamics.unit);
   const std::optional<Rational> number =
-      time ? std::optional(Rational(*time / dynamics.period)) : parse_decimal(own);
+      time ? std::optional(Rational(*time / dynamics.period)) : parse_decimal(amount);
   if (!number || *number < 0 || (!time && !is_integer(*number)) ||
       *number > Rational(static_cast<long>(kMost)))
     fail_value(expected, text, option);

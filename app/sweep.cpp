@@ -16,7 +16,7 @@ constexpr std::size_t kMostCombinations = 10'000;
 
 /// The text cut at commas that are neither in brackets of any kind nor in double quotes.
 std::vector<std::string> split_at_outer_commas(std::string_view text) {
-  std::vector<std::string> parts(1);
+  std::vector<std::string> items(1);
   int depth = 0;
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -25,13 +25,13 @@ std::vector<std::string> split_at_outer_commas(std::string_view text) {
     if (!quoted && std::string_view("([{").find(c) != std::string_view::npos) ++depth;
     if (!quoted && std::string_view(")]}").find(c) != std::string_view::npos) --depth;
     if (c == ',' && !quoted && depth == 0) {
-      parts.emplace_back();
+      items.emplace_back();
       continue;
     }
-    parts.back() += c;
-    if (quoted && c == '\\' && i + 1 < text.size()) parts.back() += text[++i];
+    items.back() += c;
+    if (quoted && c == '\\' && i + 1 < text.size()) items.back() += text[++i];
   }
-  return parts;
+  return items;
 }
 
 }  // namespace

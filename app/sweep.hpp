@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// A place in the spec and the values to try there: `--sweep PATH=V1,V2`.
+/// A location in the spec and the values to try there: `--sweep PATH=V1,V2`.
 struct Sweep {
   std::string path;
   std::vector<std::string> values;  ///< at least one

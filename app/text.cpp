@@ -121,9 +121,10 @@ std::string time_span(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
   const double whole = std::round(seconds);
   if (whole < 60) return fmt::format("{:.0f} s", whole);
-  const auto two = [](double number, double unit, const char* large, double part, const char* small) {
+  const auto two = [](double number, double unit, const char* large, double small_unit, const char* small) {
     const double many = std::floor(number / unit);
-    return fmt::format("{:.0f} {} {:.0f} {}", many, large, std::floor((number - many * unit) / part), small);
+    return fmt::format("{:.0f} {} {:.0f} {}", many, large, std::floor((number - many * unit) / small_unit),
+                       small);
   };
   if (whole < 3600) return two(whole, 60, "min", 1, "s");
   if (whole < 2 * 86400) return two(whole, 3600, "h", 60, "min");

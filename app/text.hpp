@@ -8,7 +8,7 @@
 
 #include "base/grouped.hpp"
 
-// Pieces of text for people.
+// Elements of text for people.
 namespace coordreq {
 
 /// `text` on one line: control characters and what is not UTF-8 are spelt out (\n, \x1b), all else stays.
@@ -39,7 +39,7 @@ namespace coordreq {
 /// "12 s", "3 min 20 s", "5 h 12 min", "3 days 4 h"; less than 10 s with a tenth. @pre seconds >= 0
 [[nodiscard]] std::string time_span(double seconds);
 
-/// The guarantee of a result in words: "samples" -> "samples: at the sampling instants, for every point of a
+/// The guarantee of a result as text: "samples" -> "samples: at the sampling instants, for every point of a
 /// cell".
 [[nodiscard]] std::string guarantee_text(std::string_view guarantee);
 

@@ -18,12 +18,12 @@ const char* status_of(const Finding& finding) {
   return finding.unproven > 0 ? "not confirmed" : "holds";
 }
 
-const char* basis_word(PostBasis basis) {
+const char* basis_name(PostBasis basis) {
   if (basis == PostBasis::exact) return "exact";
   return basis == PostBasis::stored ? "stored" : "computed";
 }
 
-const char* verdict_word(Verdict verdict) {
+const char* verdict_name(Verdict verdict) {
   if (verdict == Verdict::holds) return "holds";
   return verdict == Verdict::wrong ? "wrong" : "not confirmed";
 }
@@ -72,7 +72,8 @@ std::string given_text(const Json& given) {
   return fmt::format("taken as given: {}\n", fmt::join(given.get<std::vector<std::string>>(), ", "));
 }
 
-/// How many reachable sets enclosures were asked about, and confirm; how many there was no work left for.
+/// How many reachable sets were checked with enclosures, how many of them they confirm, and for how many no
+/// work was left.
 std::string confirmed_text(const Json& confirmed, const Json& work) {
   if (confirmed["of"] == 0) return "";
   std::string text = fmt::format("confirmed: {} of {} reachable sets that are not exact\n",
@@ -123,11 +124,11 @@ Json verification_json(const Verification& result, const std::string& path, doub
   json["file"] = path;
   json["name"] = result.name;
   json["holds"] = result.holds();
-  json["verdict"] = verdict_word(result.verdict());
+  json["verdict"] = verdict_name(result.verdict());
   json["cells"] = result.cells;
   json["cells_checked"] = result.cells_checked;
-  json["reachable_sets"] = basis_word(result.basis);
-  json["between_samples"] = result.tubes ? Json(basis_word(*result.tubes)) : Json(nullptr);
+  json["reachable_sets"] = basis_name(result.basis);
+  json["between_samples"] = result.tubes ? Json(basis_name(*result.tubes)) : Json(nullptr);
   json["not_independent"] = result.borrowed;
   json["taken_as_given"] = result.given;
   json["confirmed"] = {{"reachable_sets", result.confirmed}, {"of", result.enclosed}};
@@ -163,10 +164,10 @@ std::string not_confirmed_line(const Json& result) {
 
 }  // namespace
 
-void print_verification(const CommonOptions& asked, const Verification& result, const std::string& path,
+void print_verification(const CommonOptions& args, const Verification& result, const std::string& path,
                         double seconds, int threads) {
   const Json found = verification_json(result, path, seconds, threads);
-  print_answer(asked, found, verification_text);
+  print_answer(args, found, verification_text);
   if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(found));
 }
 

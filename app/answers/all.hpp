@@ -36,10 +36,10 @@ struct RunFigure {
 using RunFigures = std::vector<RunFigure>;
 [[nodiscard]] const RunFigures& run_figures();
 
-/// Members of both documents that these tell of.
+/// Members of both documents that these texts describe.
 [[nodiscard]] const std::vector<std::string>& known_members();
 
-// The texts of each answer, in a file of its own:
+// The texts of each answer, one file each:
 void add_goal_of_analysis(const Json& summary, Facts& facts);
 void add_goal_of_file(const Json& info, Facts& facts);
 [[nodiscard]] std::string report_goal(const ResultsReader& results);

@@ -69,7 +69,7 @@ void add_goal_of_file(const Json& info, Facts& facts) {
 
 namespace {
 
-std::string lasting_words(GoalThen then) {
+std::string lasting_text(GoalThen then) {
   if (then == GoalThen::stay) return "; agents are to stay there";
   return then == GoalThen::come_back ? "; agents are to return there again and again" : "";
 }
@@ -87,7 +87,7 @@ std::string report_goal(const ResultsReader& results) {
       "reached?</h2>\n<p>The goal is <code>{}</code>: {} {}{}. ",
       html_line(results.spec().goal->text), states_text(goal),
       results.spec().ends_at_goal() ? "in which the task is over" : "that can be kept safe",
-      lasting_words(results.spec().goal_then));
+      lasting_text(results.spec().goal_then));
   if (longest < 0) return text + "It cannot be forced from any of them.</p>\n</section>\n";
   const std::string most = results.spec().goal_then == GoalThen::stay
                                ? fmt::format("at most {} outside it", count_of(longest, "sample"))

@@ -21,9 +21,9 @@ constexpr std::size_t kMostModes = 12;
 /// Thresholds of `within` that a table shows, and where they are: 0, 1e-12, 1e-11, ..., 1e-1.
 struct Threshold {
   const char* text;
-  std::size_t place;
+  std::size_t index;
 };
-constexpr Threshold kShown[] = {{"0", 0}, {"1e-9", 4}, {"1e-6", 7}, {"1e-4", 9}, {"1e-2", 11}};
+constexpr Threshold kThresholds[] = {{"0", 0}, {"1e-9", 4}, {"1e-6", 7}, {"1e-4", 9}, {"1e-2", 11}};
 
 std::string number_or_dash(const Json& number) {
   return number.is_null() ? "-" : probability_text(number);
@@ -62,7 +62,7 @@ std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
   const Json& entry = summary["risk"];
   const Json& modes = entry["modes"];
   std::vector<std::string> heads = {"  mode", "worst", "mean"};
-  for (const Threshold& threshold : kShown) heads.push_back(std::string("at most ") + threshold.text);
+  for (const Threshold& threshold : kThresholds) heads.push_back(std::string("at most ") + threshold.text);
   std::vector<Table::Align> columns(heads.size(), Table::Align::right);
   columns.front() = Table::Align::left;
   Table table(columns);
@@ -70,7 +70,8 @@ std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
   for (std::size_t mode = 0; mode < std::min(kMostModes, modes.size()); ++mode) {
     std::vector<std::string> row = {"  " + text_of(modes[mode]["name"]), number_or_dash(modes[mode]["worst"]),
                                     number_or_dash(modes[mode]["mean"])};
-    for (const Threshold& threshold : kShown) row.push_back(grouped(modes[mode]["within"][threshold.place]));
+    for (const Threshold& threshold : kThresholds)
+      row.push_back(grouped(modes[mode]["within"][threshold.index]));
     table.add(row);
   }
   const std::string more = modes.size() <= kMostModes

@@ -21,13 +21,13 @@ ExitCode run(const AnalyzeOptions& options) {
 }  // namespace
 
 Run declare_analyze(Options& options) {
-  const auto own = std::make_shared<AnalyzeOptions>();
-  options.arguments(own->specs, "SPEC", kSpecDescription);
-  declare_files(options, *own);
-  declare_checkpoint(options, own->checkpoint, "FILE");
-  declare_progress(options, own->progress);
-  declare_common(options, *own);
-  return [own] { return run(*own); };
+  const auto args = std::make_shared<AnalyzeOptions>();
+  options.arguments(args->specs, "SPEC", kSpecDescription);
+  declare_files(options, *args);
+  declare_checkpoint(options, args->checkpoint, "FILE");
+  declare_progress(options, args->progress);
+  declare_common(options, *args);
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

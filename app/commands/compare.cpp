@@ -16,13 +16,13 @@ struct CompareArguments : CommonOptions {
 
 ResultsComparison compare_with_progress(const ResultsReader& before, const ResultsReader& after,
                                         const CompareArguments& arguments) {
-  ProgressDisplay shown(arguments.progress, arguments.quiet);
+  ProgressDisplay display(arguments.progress, arguments.quiet);
   CompareOptions options = arguments.compare;
-  options.progress = [&shown](const std::string& subject) {
-    shown.update({.stage = "comparing " + subject});
+  options.progress = [&display](const std::string& subject) {
+    display.update({.stage = "comparing " + subject});
   };
   ResultsComparison comparison = compare_results(before, after, options);
-  shown.finish();
+  display.finish();
   return comparison;
 }
 

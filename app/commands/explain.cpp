@@ -38,12 +38,12 @@ ExitCode run(const ExplainOptions& options) {
 }  // namespace
 
 Run declare_explain(Options& options) {
-  const auto own = std::make_shared<ExplainOptions>();
-  declare_results(options, own->results);
-  options.option(own->at, "--at", "STATE", "The state, e.g. x1=0.1,x2=1/3", as_typed);
-  options.option(own->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
-  declare_common(options, *own);
-  return [own] { return run(*own); };
+  const auto args = std::make_shared<ExplainOptions>();
+  declare_results(options, args->results);
+  options.option(args->at, "--at", "STATE", "The state, e.g. x1=0.1,x2=1/3", as_typed);
+  options.option(args->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
+  declare_common(options, *args);
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

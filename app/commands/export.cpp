@@ -145,28 +145,28 @@ ExitCode run(const ExportOptions& options) {
 }  // namespace
 
 Run declare_export(Options& options) {
-  const auto own = std::make_shared<ExportOptions>();
-  declare_results(options, own->results);
-  options.option(own->format, "--format", "csv|scs|c-header|vtk",
+  const auto args = std::make_shared<ExportOptions>();
+  declare_results(options, args->results);
+  options.option(args->format, "--format", "csv|scs|c-header|vtk",
                  "The format to write; scs is that of SCOTS, vtk that of ParaView",
                  OneOf<Format>{{{"csv", Format::csv},
                                 {"scs", Format::scs},
                                 {"c-header", Format::c_header},
                                 {"vtk", Format::vtk}}});
-  options.option(own->output, "-o,--output", "FILE",
+  options.option(args->output, "-o,--output", "FILE",
                  "File to write (default: standard output; vtk: a name that ends in .vti)", file_name);
-  options.option(own->partition, "--partition", "NAME", "The partition to export (csv, vtk: default all)",
+  options.option(args->partition, "--partition", "NAME", "The partition to export (csv, vtk: default all)",
                  as_typed);
   options.option(
-      own->controller, "--controller", "safety|progress",
+      args->controller, "--controller", "safety|progress",
       "scs: the controller that keeps the system in K (default), or the one that approaches the goal",
       OneOf<ControllerKind>{{{"safety", ControllerKind::safety}, {"progress", ControllerKind::progress}}});
-  options.repeatable(own->slices, "--slice", "STATE=VALUE",
+  options.repeatable(args->slices, "--slice", "STATE=VALUE",
                      "csv, vtk: only the cells where a state has this value; may be repeated", as_typed);
-  options.repeatable(own->projections, "--project", "STATE:KIND",
+  options.repeatable(args->projections, "--project", "STATE:KIND",
                      "csv, vtk: the minimum or maximum along a state, min or max; may be repeated", as_typed);
-  declare_common(options, *own, {.answer = false});
-  return [own] { return run(*own); };
+  declare_common(options, *args, {.answer = false});
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

@@ -76,9 +76,9 @@ std::string info_text(const Json& info, const ProblemSpec& spec) {
   std::string text = head_text(info, spec) + answers_text(info, headline_policies(spec)) + "\n" +
                      axes_text(info) + "\n" + described_partitions(info["partitions"]);
   for (const InfoSection section : info_sections()) text += section(info);
-  std::vector<std::string> told = known_members();
-  told.emplace_back("spec");
-  text += others_text(info, told);
+  std::vector<std::string> known = known_members();
+  known.emplace_back("spec");
+  text += others_text(info, known);
   text += "\ndatasets\n";
   for (const Json& dataset : info["datasets"]) text += "  " + line_of(dataset) + "\n";
   return text;
@@ -91,13 +91,14 @@ struct InfoOptions : CommonOptions {
 }  // namespace
 
 Run declare_info(Options& options) {
-  const auto own = std::make_shared<InfoOptions>();
-  declare_results(options, own->results);
-  declare_common(options, *own, {.threads = false});
-  return [own] {
-    own->keep_to_memory();
-    const ResultsReader results(own->results, own->max_memory);
-    print_answer(*own, read_info(results), [&](const Json& info) { return info_text(info, results.spec()); });
+  const auto args = std::make_shared<InfoOptions>();
+  declare_results(options, args->results);
+  declare_common(options, *args, {.threads = false});
+  return [args] {
+    args->keep_to_memory();
+    const ResultsReader results(args->results, args->max_memory);
+    print_answer(*args, read_info(results),
+                 [&](const Json& info) { return info_text(info, results.spec()); });
     return ExitCode::success;
   };
 }

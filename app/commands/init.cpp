@@ -132,18 +132,18 @@ std::string next_text(const Json& answer) {
 }  // namespace
 
 Run declare_init(Options& options) {
-  const auto own = std::make_shared<InitOptions>();
-  options.optional_argument(own->file, "FILE",
+  const auto args = std::make_shared<InitOptions>();
+  options.optional_argument(args->file, "FILE",
                             "The new spec (default: spec.json); - writes to standard output");
-  declare_common(options, *own, {.threads = false, .memory = false});
-  return [own] {
-    const std::string text = spec_text(own->file);
-    if (own->file == "-") {
+  declare_common(options, *args, {.threads = false, .memory = false});
+  return [args] {
+    const std::string text = spec_text(args->file);
+    if (args->file == "-") {
       write_output(text);
       return ExitCode::success;
     }
-    write_new(own->file, text);
-    print_answer(*own, Json{{"output", own->file}}, next_text);
+    write_new(args->file, text);
+    print_answer(*args, Json{{"output", args->file}}, next_text);
     return ExitCode::success;
   };
 }

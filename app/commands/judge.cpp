@@ -78,14 +78,14 @@ ExitCode run(const JudgeOptions& options) {
 }  // namespace
 
 Run declare_judge(Options& options) {
-  const auto own = std::make_shared<JudgeOptions>();
-  declare_results(options, own->results);
-  options.optional_argument(own->log, "LOG", "The log, CSV or JSON lines (default, and -: standard input)",
+  const auto args = std::make_shared<JudgeOptions>();
+  declare_results(options, args->results);
+  options.optional_argument(args->log, "LOG", "The log, CSV or JSON lines (default, and -: standard input)",
                             "FILE");
-  options.option(own->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
-  options.flag(own->csv, "--csv", "Print one line per row, as CSV, instead of the summary");
-  declare_common(options, *own);
-  return [own] { return run(*own); };
+  options.option(args->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
+  options.flag(args->csv, "--csv", "Print one line per row, as CSV, instead of the summary");
+  declare_common(options, *args);
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

@@ -32,7 +32,7 @@ struct QueryOptions : CommonOptions {
   std::string partition;
 };
 
-/// What pairs of a fleet are asked for.
+/// The query about pairs of a fleet.
 constexpr const char* kSilence = "/silence";
 
 /// Line by line, so that a program at the other end of two pipes gets each answer before it asks on.
@@ -101,23 +101,23 @@ ExitCode run(const QueryOptions& options) {
 }  // namespace
 
 Run declare_query(Options& options) {
-  const auto own = std::make_shared<QueryOptions>();
-  declare_results(options, own->results);
-  options.option(own->at, "--at", "STATE",
+  const auto args = std::make_shared<QueryOptions>();
+  declare_results(options, args->results);
+  options.option(args->at, "--at", "STATE",
                  "The state, e.g. x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)",
                  as_typed);
-  options.flag(own->extra, "--extra",
+  options.flag(args->extra, "--extra",
                "Pass columns (JSON lines: keys) that name no state through to the answers");
-  options.flag(own->least, "--least",
+  options.flag(args->least, "--least",
                "Minimum silence over the pairs of a fleet on standard input; a column pair is a label");
   options.option(
-      own->at_least, "--at-least", "N",
+      args->at_least, "--at-least", "N",
       "With --least: count the pairs below N steps, or a time, e.g. 2s; exit code 1 if there are any",
       as_typed);
-  options.option(own->partition, "--partition", "NAME", "With --least: partition (default: the only one)",
+  options.option(args->partition, "--partition", "NAME", "With --least: partition (default: the only one)",
                  as_typed);
-  declare_common(options, *own);
-  return [own] { return run(*own); };
+  declare_common(options, *args);
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

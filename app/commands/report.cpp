@@ -24,7 +24,7 @@ namespace {
 
 /// The partitions whose delay can be looked at: as many as a page has room for, those first with the most
 /// classes, where silence matters most.
-std::vector<std::size_t> shown_partitions(const ResultsReader& results) {
+std::vector<std::size_t> displayed_partitions(const ResultsReader& results) {
   const auto& partitions = results.partitions();
   std::vector<std::size_t> order(partitions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -39,7 +39,7 @@ std::vector<std::size_t> shown_partitions(const ResultsReader& results) {
 }
 
 std::string page_of(const ResultsReader& results, ReportData& data) {
-  data = report_data(results, shown_partitions(results));
+  data = report_data(results, displayed_partitions(results));
   ReportPage page;
   page.title = printable(report_title(results.spec()));
   page.summary = "<h1>" + html_line(report_title(results.spec())) + "</h1>\n" + report_task(results);
@@ -104,14 +104,14 @@ ExitCode run(const ReportOptions& options) {
 }  // namespace
 
 Run declare_report(Options& options) {
-  const auto own = std::make_shared<ReportOptions>();
-  declare_results(options, own->results);
-  options.option(own->output, "-o,--output", "FILE", "HTML file (default: NAME.html in the current folder)",
+  const auto args = std::make_shared<ReportOptions>();
+  declare_results(options, args->results);
+  options.option(args->output, "-o,--output", "FILE", "HTML file (default: NAME.html in the current folder)",
                  file_name);
-  options.flag(own->is_forced, "--force",
+  options.flag(args->is_forced, "--force",
                "Replace a file of the name NAME.html also if it is no report on these results");
-  declare_common(options, *own, {.threads = false});
-  return [own] { return run(*own); };
+  declare_common(options, *args, {.threads = false});
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

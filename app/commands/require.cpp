@@ -24,7 +24,7 @@ namespace coordreq {
 namespace {
 
 struct RequireOptions : CommonOptions {
-  std::string results, over, partition;
+  std::string results, axes, partition;
   std::vector<std::optional<std::string>> limits =
       std::vector<std::optional<std::string>>(6);  ///< by kLimits
   std::optional<std::string> best;
@@ -32,7 +32,7 @@ struct RequireOptions : CommonOptions {
   bool csv = false;
 };
 
-/// The limits that can be asked for, by their options.
+/// The limits that can be requested, by their options.
 struct LimitOption {
   RequirementKind kind;
   const char* name;
@@ -53,7 +53,7 @@ constexpr std::array kLimits = {
     LimitOption{RequirementKind::max_risk, "--risk", "P",
                 "The maximum probability of leaving the invariance set within the horizon ('risk')"}};
 
-/// The limit that was asked for, of which there is one.
+/// The requested limit, of which there is one.
 std::pair<LimitOption, std::string> limit_of(const RequireOptions& options) {
   std::optional<std::pair<LimitOption, std::string>> found;
   for (std::size_t i = 0; i < kLimits.size(); ++i) {
@@ -76,7 +76,7 @@ double risk_of(const std::string& text, const char* option) {
   return nearest_double(*value);
 }
 
-/// @throws UsageError if the results do not have what is asked for
+/// @throws UsageError if the results do not have what is requested
 void set_limit(const RequireOptions& options, const ResultsReader& results, ToleranceQuestion& question) {
   const auto [limit, text] = limit_of(options);
   const RequirementTraits& kind = traits(limit.kind);
@@ -96,34 +96,35 @@ void set_limit(const RequireOptions& options, const ResultsReader& results, Tole
   }
 }
 
-std::vector<ToleranceQuestion::Over> over_of(const RequireOptions& options, const ResultsReader& results) {
-  std::vector<ToleranceQuestion::Over> over;
+std::vector<ToleranceQuestion::Axis> axes_of(const RequireOptions& options, const ResultsReader& results) {
+  std::vector<ToleranceQuestion::Axis> axes;
   const std::vector<std::string> names = state_names(results.spec()).names;
-  for (const std::string_view part : split_at_commas(options.over)) {
-    const std::size_t state = state_number(trimmed(part), names, "--over");
-    for (const ToleranceQuestion::Over& other : over)
+  for (const std::string_view name : split_at_commas(options.axes)) {
+    const std::size_t state = state_number(trimmed(name), names, "--over");
+    for (const ToleranceQuestion::Axis& other : axes)
       if (other.state == state) throw UsageError(echoed(names[state]) + " is given twice", "--over");
-    over.push_back({state, true});
+    axes.push_back({state, true});
   }
-  if (over.size() > 2)
-    throw UsageError(fmt::format("expected one state or two, found {}", over.size()), "--over");
-  const std::string all_words = options.best.value_or("large");
-  const std::vector<std::string_view> words = split_at_commas(all_words);
-  if (words.size() != 1 && words.size() != over.size())
+  if (axes.size() > 2)
+    throw UsageError(fmt::format("expected one state or two, found {}", axes.size()), "--over");
+  const std::string all_best = options.best.value_or("large");
+  const std::vector<std::string_view> best_values = split_at_commas(all_best);
+  if (best_values.size() != 1 && best_values.size() != axes.size())
     throw UsageError("expected one word for each state of --over", "--best");
   const OneOf<bool> best{{{"large", true}, {"small", false}}};
-  for (std::size_t i = 0; i < over.size(); ++i)
-    over[i].is_large_best = best(std::string(trimmed(words[words.size() == 1 ? 0 : i])), "--best");
-  return over;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    axes[i].is_large_best =
+        best(std::string(trimmed(best_values[best_values.size() == 1 ? 0 : i])), "--best");
+  return axes;
 }
 
 std::vector<TableSelection::Slice> given_of(const RequireOptions& options, const ResultsReader& results,
-                                            const std::vector<ToleranceQuestion::Over>& over) {
+                                            const std::vector<ToleranceQuestion::Axis>& axes) {
   std::vector<TableSelection::Slice> given;
   const std::vector<std::string> names = state_names(results.spec()).names;
   for (const auto& [name, value] : options.given) {
     const std::size_t state = state_number(name, names, "--given");
-    for (const ToleranceQuestion::Over& other : over)
+    for (const ToleranceQuestion::Axis& other : axes)
       if (other.state == state) throw UsageError(echoed(name) + " is sought, expected no value", "--given");
     const std::vector<Rational> values = {value};
     const Location location = locate(UniformGrid({results.grid()[state]}), values);
@@ -137,13 +138,13 @@ std::vector<TableSelection::Slice> given_of(const RequireOptions& options, const
 ExitCode run(const RequireOptions& options) {
   if (options.csv && options.json) throw UsageError("expected --csv or --json, found both", "--csv");
   static_cast<void>(limit_of(options));
-  if (options.over.empty()) throw UsageError("missing --over STATE, the state over which to search");
+  if (options.axes.empty()) throw UsageError("missing --over STATE, the state over which to search");
   options.keep_to_memory();
   const ResultsReader results(options.results, options.max_memory);
   ToleranceQuestion question{.partition = find_partition(results.spec(), options.partition)};
   set_limit(options, results, question);
-  question.over = over_of(options, results);
-  question.given = given_of(options, results, question.over);
+  question.axes = axes_of(options, results);
+  question.given = given_of(options, results, question.axes);
   static_cast<void>(options.threads_for("reading needs", {.once = results.reading_bytes()}));
   const Json found = require_json(results, question, find_tolerance(results, question));
   const bool is_one_sided = options.best.has_value();
@@ -158,24 +159,24 @@ ExitCode run(const RequireOptions& options) {
 }  // namespace
 
 Run declare_require(Options& options) {
-  const auto own = std::make_shared<RequireOptions>();
-  declare_results(options, own->results);
+  const auto args = std::make_shared<RequireOptions>();
+  declare_results(options, args->results);
   for (std::size_t i = 0; i < kLimits.size(); ++i)
-    options.option(own->limits[i], kLimits[i].name, kLimits[i].takes, kLimits[i].description, as_typed);
-  options.option(own->over, "--over", "STATES", "The state that is sought, or two with a comma between",
+    options.option(args->limits[i], kLimits[i].name, kLimits[i].takes, kLimits[i].description, as_typed);
+  options.option(args->axes, "--over", "STATES", "The state that is sought, or two with a comma between",
                  as_typed);
-  options.option(own->given, "--given", "VALUES",
+  options.option(args->given, "--given", "VALUES",
                  "Values of other states, e.g. v1=1,v2=-1; a state left out may have any value",
                  named_values);
   options.option(
-      own->best, "--best", "WORDS",
+      args->best, "--best", "WORDS",
       "Which values are better, large or small: only the bound from which on, or up to which; for two "
       "states optionally two words (default: large; for one state all intervals)",
       as_typed);
-  options.option(own->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
-  options.flag(own->csv, "--csv", "A line for each interval, or corner of the region, as CSV");
-  declare_common(options, *own, {.threads = false});
-  return [own] { return run(*own); };
+  options.option(args->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
+  options.flag(args->csv, "--csv", "A line for each interval, or corner of the region, as CSV");
+  declare_common(options, *args, {.threads = false});
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

@@ -48,10 +48,10 @@ void check_complete(const SimulateOptions& options) {
 }
 
 Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& options,
-                              const SimulateOptions& own) {
+                              const SimulateOptions& args) {
   const std::string runs = fmt::format("{} runs of {} steps need", options.runs, options.steps);
-  ThreadTeam team(own.threads_for(runs, simulation_demand(results, options)));
-  ProgressDisplay shown(own.progress, own.quiet);
+  ThreadTeam team(args.threads_for(runs, simulation_demand(results, options)));
+  ProgressDisplay shown(args.progress, args.quiet);
   Progress progress;
   // A signal waits while there may be a temporary file; without one it ends the program at once.
   std::optional<InterruptDelay> delay;
@@ -80,31 +80,31 @@ Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& o
   return simulation;
 }
 
-ExitCode run(const SimulateOptions& own) {
-  check_complete(own);
-  if (own.simulation.output) check_output(own.results, *own.simulation.output, "the runs");
-  SimulationOptions options = own.simulation;
-  own.keep_to_memory();
-  const ResultsReader results(own.results, own.max_memory);
+ExitCode run(const SimulateOptions& args) {
+  check_complete(args);
+  if (args.simulation.output) check_output(args.results, *args.simulation.output, "the runs");
+  SimulationOptions options = args.simulation;
+  args.keep_to_memory();
+  const ResultsReader results(args.results, args.max_memory);
   const DynamicsSpec& dynamics = results.spec().dynamics;
-  options.steps = steps_or_time(own.steps.value(), dynamics, "--steps");
-  if (own.silent_steps)
-    options.silent_steps = steps_or_time(*own.silent_steps, dynamics, "--silent", {.least = 0});
-  const Simulation simulation = simulate_with_care(results, options, own);
-  print_simulation(own, simulation, results, options);
+  options.steps = steps_or_time(args.steps.value(), dynamics, "--steps");
+  if (args.silent_steps)
+    options.silent_steps = steps_or_time(*args.silent_steps, dynamics, "--silent", {.least = 0});
+  const Simulation simulation = simulate_with_care(results, options, args);
+  print_simulation(args, simulation, results, options);
   return simulation.failure() ? ExitCode::requirement_failed : ExitCode::success;
 }
 
 }  // namespace
 
 Run declare_simulate(Options& options) {
-  const auto own = std::make_shared<SimulateOptions>();
-  SimulationOptions& simulation = own->simulation;
-  declare_results(options, own->results);
+  const auto args = std::make_shared<SimulateOptions>();
+  SimulationOptions& simulation = args->simulation;
+  declare_results(options, args->results);
   options.option(simulation.start, "--from", "STATE", "State to start from, e.g. x1=0.1,x2=0", as_typed);
-  options.option(own->starts_anywhere, "--start", "random", "Start at random states of the invariance set",
+  options.option(args->starts_anywhere, "--start", "random", "Start at random states of the invariance set",
                  OneOf<bool>{{{"random", true}}});
-  options.option(own->steps, "--steps", "N", "Length of a run: steps, or a time, e.g. 10min", as_typed);
+  options.option(args->steps, "--steps", "N", "Length of a run: steps, or a time, e.g. 10min", as_typed);
   options.option(simulation.runs, "--runs", "N", "Number of runs (default: 1)", kCount);
   options.option(simulation.seed, "--seed", "N", "Seed of the random numbers (default: 1)",
                  WholeNumber<std::uint64_t>{0, UINT64_MAX});
@@ -126,15 +126,15 @@ Run declare_simulate(Options& options) {
   options.option_with_or_without(
       "--silent", "N",
       "Follow the communication-loss rule for N steps, then the fallback rule; without N, until S is left",
-      [own = own.get()](const auto& text, const auto& /*option*/) {
-        own->simulation.silent = true;
-        if (!text.empty()) own->silent_steps = text;
+      [args = args.get()](const auto& text, const auto& /*option*/) {
+        args->simulation.silent = true;
+        if (!text.empty()) args->silent_steps = text;
       });
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
-  declare_progress(options, own->progress);
-  declare_common(options, *own);
-  return [own] { return run(*own); };
+  declare_progress(options, args->progress);
+  declare_common(options, *args);
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

@@ -29,7 +29,7 @@ Json state_json(const SpecReport::State& state) {
   json["name"] = state.name;
   json["unit"] = state.unit;
   json["points"] = state.points;
-  json["outside"] = {{"below", outside_word(state.below)}, {"above", outside_word(state.above)}};
+  json["outside"] = {{"below", outside_name(state.below)}, {"above", outside_name(state.above)}};
   json["depends_on"] =
       Json{{"states", state.states}, {"inputs", state.inputs}, {"disturbances", state.disturbances}};
   json["shift"] = state.shift;
@@ -66,7 +66,7 @@ Json report_json(const SpecReport& report, const ProblemSpec& spec) {
 
 Json ranks_json(int ranks, const FullestRank& fullest) {
   return {{"ranks", ranks},
-          {"rows", fullest.own_rows},
+          {"rows", fullest.local_rows},
           {"halo_rows", fullest.ghost_rows},
           {"memory_bytes", fullest.memory_bytes}};
 }
@@ -209,33 +209,33 @@ Json inspected(const ProblemSpec& spec, const ValidateOptions& options) {
   const int threads =
       options.ranks ? options.threads : threads_within(model, options.max_memory, options.threads, false);
   const SpecReport report = inspect(model, threads);
-  Json found = report_json(report, spec);
-  found["seconds"] = nullptr;
+  Json findings = report_json(report, spec);
+  findings["seconds"] = nullptr;
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(threads);
     if (const std::optional<double> seconds = options.quiet ? std::nullopt : estimate_seconds(model, team);
         seconds)
-      found["seconds"] = *seconds;
+      findings["seconds"] = *seconds;
     check_regions(spec, team);
-    found["warnings"] = warnings_json(advise_before(model, report.motion, options.posts, team));
+    findings["warnings"] = warnings_json(advise_before(model, report.motion, options.posts, team));
   } else {
-    found["warnings"] = warnings_json({too_large_here(report, *memory)});
+    findings["warnings"] = warnings_json({too_large_here(report, *memory)});
   }
   if (options.ranks) {
     ThreadTeam team(options.threads);
-    found["fullest_rank"] =
+    findings["fullest_rank"] =
         ranks_json(*options.ranks, inspect_ranks(model, *options.ranks, options.threads,
                                                  {.of_rank = options.max_memory, .here = memory}, team));
   }
-  return found;
+  return findings;
 }
 
 ExitCode run(const ValidateOptions& options) {
   options.hold_to_memory();
   const ProblemSpec spec = load_spec(options.spec, options.settings, options.memory());
-  const Json found = with_places_in(spec, [&] { return inspected(spec, options); });
-  PrintedWarnings(options).print(found["warnings"]);
-  print_answer(options, found, [&](const Json& report_of_spec) {
+  const Json findings = with_places_in(spec, [&] { return inspected(spec, options); });
+  PrintedWarnings(options).print(findings["warnings"]);
+  print_answer(options, findings, [&](const Json& report_of_spec) {
     return report_text(report_of_spec, spec, options.is_verbose);
   });
   return ExitCode::success;
@@ -244,19 +244,19 @@ ExitCode run(const ValidateOptions& options) {
 }  // namespace
 
 Run declare_validate(Options& options) {
-  const auto own = std::make_shared<ValidateOptions>();
-  options.argument(own->spec, "SPEC", kSpecDescription);
-  declare_settings(options, own->settings);
-  options.option(own->ranks, "--ranks", "N",
+  const auto args = std::make_shared<ValidateOptions>();
+  options.argument(args->spec, "SPEC", kSpecDescription);
+  declare_settings(options, args->settings);
+  options.option(args->ranks, "--ranks", "N",
                  "Also estimate the fullest of N processes of coordreq-mpi, each with --threads",
                  WholeNumber<int>{1, kMostRanks});
-  options.option(own->posts, "--posts", "N",
+  options.option(args->posts, "--posts", "N",
                  "Compute N successor sets of a large problem, to find equations that are undefined "
                  "somewhere (default: 1000)",
                  WholeNumber<std::int64_t>{1, 1'000'000'000});
-  options.flag(own->is_verbose, "--verbose", "Also show how tables and rows are stored");
-  declare_common(options, *own);
-  return [own] { return run(*own); };
+  options.flag(args->is_verbose, "--verbose", "Also show how tables and rows are stored");
+  declare_common(options, *args);
+  return [args] { return run(*args); };
 }
 
 }  // namespace coordreq

@@ -27,15 +27,15 @@ double seconds_since(Clock::time_point start) {
 
 Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments& arguments,
                                   ThreadTeam& team) {
-  ProgressDisplay shown(arguments.progress, arguments.quiet);
+  ProgressDisplay display(arguments.progress, arguments.quiet);
   VerifyOptions options{.sample = arguments.sample};
   options.budget_seconds = arguments.budget;
   options.full = arguments.full;
   options.progress = [&](const VerifyProgress& progress) {
-    shown.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
+    display.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
   };
   Verification result = verify_file(file, options, team);
-  shown.finish();
+  display.finish();
   return result;
 }
 

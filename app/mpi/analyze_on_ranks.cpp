@@ -26,8 +26,8 @@ ProblemSpec shared_spec(const AnalyzeOptions& options, Ranks& ranks) {
     static_cast<void>(read_with_settings(written, options.settings));
     source = with_settings(written, options.settings);
   }
-  for (std::string* const part : {&source.text, &source.name, &source.folder})
-    *part = text_of(ranks.from_first(bytes_of(*part)));
+  for (std::string* const text : {&source.text, &source.name, &source.folder})
+    *text = text_of(ranks.from_first(bytes_of(*text)));
   ProblemSpec spec = read_spec(source);
   if (!options.settings.empty())
     spec.written = std::make_shared<WrittenSpec>();  // not all have what was written
@@ -35,24 +35,24 @@ ProblemSpec shared_spec(const AnalyzeOptions& options, Ranks& ranks) {
 }
 
 Run declare_analyze(Options& options, Ranks& ranks, const std::function<void()>& watch) {
-  const auto own = std::make_shared<AnalyzeOptions>();
-  own->ranks = &ranks;
-  own->sharers = ranks.on_this_machine();
-  own->watch = watch;
-  own->threads = 1;
-  options.arguments(own->specs, "SPEC", kSpecDescription);
-  declare_files(options, *own);
-  declare_checkpoint(options, own->checkpoint, "FOLDER");
-  declare_progress(options, own->progress);
-  declare_threads(options, own->threads, "Threads per rank (default: 1)");
-  declare_common(options, *own, {.threads = false});
-  return [own] {
-    if (own->ranks->rank() != 0) {
-      own->quiet = true;
-      own->progress.mode = ProgressMode::none;
+  const auto args = std::make_shared<AnalyzeOptions>();
+  args->ranks = &ranks;
+  args->sharers = ranks.on_this_machine();
+  args->watch = watch;
+  args->threads = 1;
+  options.arguments(args->specs, "SPEC", kSpecDescription);
+  declare_files(options, *args);
+  declare_checkpoint(options, args->checkpoint, "FOLDER");
+  declare_progress(options, args->progress);
+  declare_threads(options, args->threads, "Threads per rank (default: 1)");
+  declare_common(options, *args, {.threads = false});
+  return [args] {
+    if (args->ranks->rank() != 0) {
+      args->quiet = true;
+      args->progress.mode = ProgressMode::none;
     }
-    if (own->is_batch()) return run_batch_on_ranks(*own);
-    return analyze_and_print(shared_spec(*own, *own->ranks), *own);
+    if (args->is_batch()) return run_batch_on_ranks(*args);
+    return analyze_and_print(shared_spec(*args, *args->ranks), *args);
   };
 }
 

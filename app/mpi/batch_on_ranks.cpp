@@ -49,7 +49,7 @@ RunOutcome outcome_from(const Json& answer) {
 }
 
 /// Does what the first rank asks for, until that is nothing.
-void serve(const AnalyzeOptions& asked, Ranks& ranks) {
+void serve(const AnalyzeOptions& args, Ranks& ranks) {
   for (;;) {
     const Bytes message = ranks.receive(0);
     if (message.empty()) return;
@@ -57,7 +57,7 @@ void serve(const AnalyzeOptions& asked, Ranks& ranks) {
     ProblemSpec spec =
         read_spec({.text = request["text"], .name = request["path"], .folder = request["folder"]});
     if (!request["is_written"].get<bool>()) spec.written = std::make_shared<WrittenSpec>();
-    ranks.send(0, message_of(answer_of(outcome_of(spec, request["output"], asked, ""))));
+    ranks.send(0, message_of(answer_of(outcome_of(spec, request["output"], args, ""))));
   }
 }
 
@@ -68,11 +68,11 @@ class Dispatcher {
              const std::function<void(std::size_t, RunOutcome)>& done)
       : plan_(plan), ranks_(ranks), done_(done), runs_of_(static_cast<std::size_t>(ranks.count())) {}
 
-  void run(AnalyzeOptions asked) {
-    asked.watch = [this] { look(); };
+  void run(AnalyzeOptions args) {
+    args.watch = [this] { look(); };
     for (int rank = 1; rank < ranks_.count(); ++rank) give(rank);
     while (const std::optional<std::size_t> own = take())
-      done_(*own, outcome_of(*plan_[*own].spec, plan_[*own].output, asked, ""));
+      done_(*own, outcome_of(*plan_[*own].spec, plan_[*own].output, args, ""));
     while (at_work_ > 0) {
       if (is_interrupted()) throw interruption();
       look();
@@ -117,15 +117,15 @@ class Dispatcher {
 
 }  // namespace
 
-ExitCode run_batch_on_ranks(const AnalyzeOptions& asked) {
-  Ranks& ranks = *asked.ranks;
-  AnalyzeOptions alone = asked;
+ExitCode run_batch_on_ranks(const AnalyzeOptions& args) {
+  Ranks& ranks = *args.ranks;
+  AnalyzeOptions alone = args;
   alone.ranks = nullptr;
   if (ranks.rank() != 0) {
     serve(alone, ranks);
     return ExitCode::success;
   }
-  // A bar would be in the way of the lines that others cause.
+  // A bar would clash with the lines that others print.
   if (alone.progress.mode != ProgressMode::log) alone.progress.mode = ProgressMode::none;
   return run_analyze_batch(alone, [&ranks](const std::vector<PlannedRun>& plan, const AnalyzeOptions& options,
                                            const std::function<void(std::size_t, RunOutcome)>& done) {

@@ -18,8 +18,8 @@ namespace coordreq {
 namespace {
 
 /// MPI counts in ints: longer messages go in pieces of this size, and one that is not longer is the last.
-constexpr std::size_t kPiece = std::size_t{1} << 30;
-/// How long a rank waits for the first one to hear of its error: after that it tells of it itself.
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+/// How long a rank waits for the first one to receive its error: after that it reports it itself.
 constexpr std::chrono::seconds kPatience{20};
 /// How long it waits for somebody to read its last line who is there and does not.
 constexpr std::chrono::seconds kLineIsRead{60};
@@ -49,7 +49,7 @@ struct MpiRanks::Handles {
   MPI_Comm errors = MPI_COMM_NULL;
   // Of the sum that has begun.
   MPI_Request sum = MPI_REQUEST_NULL;
-  std::int64_t own = 0;
+  std::int64_t local = 0;
   std::int64_t all = 0;
 };
 
@@ -74,11 +74,11 @@ void MpiRanks::send(int to, Bytes message) {
   forget_sent();
   sent_bytes_ += static_cast<std::int64_t>(message.size());
   Sending& sending = sending_.emplace_back(Sending{std::move(message), {}});
-  for (std::size_t begin = 0;; begin += kPiece) {
-    const std::size_t bytes = std::min(kPiece, sending.message.size() - begin);
+  for (std::size_t begin = 0;; begin += kMostBytes) {
+    const std::size_t bytes = std::min(kMostBytes, sending.message.size() - begin);
     MPI_Isend(sending.message.data() + begin, static_cast<int>(bytes), MPI_BYTE, to, 0, handles_->work,
               &sending.requests.emplace_back());
-    if (bytes < kPiece) break;
+    if (bytes < kMostBytes) break;
   }
 }
 
@@ -98,7 +98,7 @@ Bytes MpiRanks::receive(int from) {
     const std::size_t before = message.size();
     message.resize(before + static_cast<std::size_t>(bytes));
     MPI_Mrecv(message.data() + before, bytes, MPI_BYTE, &found, MPI_STATUS_IGNORE);
-    if (static_cast<std::size_t>(bytes) < kPiece) break;
+    if (static_cast<std::size_t>(bytes) < kMostBytes) break;
   }
   forget_sent();
   return message;
@@ -120,16 +120,16 @@ void MpiRanks::take_greatest(std::span<std::int64_t> values) {
 }
 
 void MpiRanks::reduce(std::span<std::int64_t> values, bool is_sum) {
-  const std::vector<std::int64_t> own(values.begin(), values.end());
+  const std::vector<std::int64_t> local(values.begin(), values.end());
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallreduce(own.data(), values.data(), static_cast<int>(values.size()), MPI_INT64_T,
+  MPI_Iallreduce(local.data(), values.data(), static_cast<int>(values.size()), MPI_INT64_T,
                  is_sum ? MPI_SUM : MPI_MAX, handles_->work, &request);
   wait(request);
 }
 
 void MpiRanks::begin_sum(std::int64_t value) {
-  handles_->own = value;
-  MPI_Iallreduce(&handles_->own, &handles_->all, 1, MPI_INT64_T, MPI_SUM, handles_->work, &handles_->sum);
+  handles_->local = value;
+  MPI_Iallreduce(&handles_->local, &handles_->all, 1, MPI_INT64_T, MPI_SUM, handles_->work, &handles_->sum);
 }
 
 std::int64_t MpiRanks::finish_sum() {
@@ -155,17 +155,17 @@ void MpiRanks::forget_sent() {
 }
 
 void MpiRanks::idle() {
-  hear_errors();
+  receive_errors();
   if (watch_) watch_();
   sched_yield();  // there may be more ranks than cores
 }
 
 void MpiRanks::poll() {
-  hear_errors();
+  receive_errors();
   forget_sent();
 }
 
-void MpiRanks::hear_errors() {
+void MpiRanks::receive_errors() {
   if (rank_ != 0) return;
   int is_there = 0;
   MPI_Message found = MPI_MESSAGE_NULL;
@@ -184,7 +184,7 @@ void MpiRanks::finish() {
     forget_sent();
     idle();
   }
-  static_cast<void>(sum(0));  // no error is under way any more
+  static_cast<void>(sum(0));  // no error is being sent any more
   MPI_Comm_free(&handles_->work);
   MPI_Comm_free(&handles_->errors);
   MPI_Finalize();

@@ -13,7 +13,7 @@ namespace coordreq {
 
 /// The processes that mpirun has started. At most one object a process: it begins and ends MPI.
 ///
-/// An error of one rank ends all of them, and is told once, by the first: see end_all().
+/// An error of one rank ends all of them, and is reported once, by the first: see end_all().
 class MpiRanks final : public Ranks {
  public:
   MpiRanks(int& argc, char**& argv);
@@ -36,13 +36,13 @@ class MpiRanks final : public Ranks {
   /// Called while this rank waits; what it throws ends the wait.
   void set_watch(std::function<void()> watch) { watch_ = std::move(watch); }
 
-  /// Looks after messages on their way, and for errors of others. @throws Error of another rank
+  /// Completes messages in transit, and checks for errors of others. @throws Error of another rank
   void poll();
 
   /// Together: the work is done.
   void finish();
   /// The work has failed here. The first rank has said so and ends all processes; another one leaves both to
-  /// the first, and if that does not hear of it in some seconds `say` is called here.
+  /// the first, and if that does not receive it in some seconds `say` is called here.
   [[noreturn]] void end_all(int exit_code, const std::string& what, const std::function<void()>& say);
 
  private:
@@ -54,7 +54,7 @@ class MpiRanks final : public Ranks {
   void wait(Request& request);
   void reduce(std::span<std::int64_t> values, bool is_sum);
   void forget_sent();
-  void hear_errors();
+  void receive_errors();
   void idle();
 
   int rank_ = 0;

@@ -23,7 +23,7 @@ namespace coordreq {
 /// Several analyses on ranks, each by one of them: whoever has done one gets the next. The first rank plans,
 /// tells and works too. Together.
 /// @throws as run_analyze_batch()
-[[nodiscard]] ExitCode run_batch_on_ranks(const AnalyzeOptions& asked);
+[[nodiscard]] ExitCode run_batch_on_ranks(const AnalyzeOptions& args);
 
 /// `coordreq-mpi`: what is typed, done by all ranks together. Only the first reads the spec, writes, and
 /// prints. @param watch is called again and again while the work goes on; what it throws ends it

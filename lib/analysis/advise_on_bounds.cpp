@@ -63,7 +63,7 @@ struct CutCells {
     for (const Rational& value : values)
       if (cuts_a_cell(state, value)) cut.push_back(number(value));
     if (cut.empty()) return;
-    places.push_back(state.name + " at " + listed_words(cut));
+    places.push_back(state.name + " at " + list_text(cut));
     if (const std::optional<std::string> how = remedy(state, values)) mended[*how].push_back(state.name);
   }
 };
@@ -84,7 +84,7 @@ Warnings advise_on_bounds(const ProblemSpec& spec) {
   }
   if (found.places.empty()) return {};
   std::vector<std::string> remedies;
-  for (const auto& [how, names] : found.mended) remedies.push_back(how + " for " + listed_words(names));
+  for (const auto& [how, names] : found.mended) remedies.push_back(how + " for " + list_text(names));
   return {{"bound", "/safe",
            fmt::format("bounds of 'safe' lie within cells, which are not safe as a whole: {}{}",
                        fmt::join(found.places, ", "),

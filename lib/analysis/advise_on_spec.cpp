@@ -121,7 +121,7 @@ void advise_on_jumps(const ProblemSpec& spec, Warnings& found) {
        fmt::format("'safe' depends on {}, which {} at the sampling instants: between two samples "
                    "{} as at the first of them, so that motion with {} between the samples is not covered; "
                    "a continuous state with an equation moves all the time",
-                   listed_words(names), is_one ? "jumps" : "jump", is_one ? "it counts" : "they count",
+                   list_text(names), is_one ? "jumps" : "jump", is_one ? "it counts" : "they count",
                    is_one ? "it" : "them")});
 }
 

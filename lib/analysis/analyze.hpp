@@ -92,7 +92,7 @@ struct SpecReport {
 
 /// The rows and the memory of the fullest of several processes.
 struct FullestRank {
-  std::int64_t own_rows = 0;
+  std::int64_t local_rows = 0;
   std::int64_t ghost_rows = 0;
   std::uint64_t memory_bytes = 0;
 };

@@ -110,7 +110,7 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
                                 .slices = rows.slices});
     if (needed <= most) continue;
     most = needed;
-    fullest = {.own_rows = rows.own, .ghost_rows = rows.ghosts};
+    fullest = {.local_rows = rows.own, .ghost_rows = rows.ghosts};
   }
   check(most, limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
   fullest.memory_bytes = to_bytes(most);

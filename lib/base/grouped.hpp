@@ -21,7 +21,7 @@ namespace coordreq {
 }
 
 /// "a, b and c".
-[[nodiscard]] inline std::string listed_words(const std::vector<std::string>& parts) {
+[[nodiscard]] inline std::string list_text(const std::vector<std::string>& parts) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i)
     text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];

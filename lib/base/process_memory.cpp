@@ -58,7 +58,7 @@ double memory_of_threads(int threads) {
   return (all_threads(threads) - 1) * kThreadBytes;
 }
 
-std::string bytes_in_words(double bytes) {
+std::string byte_text(double bytes) {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
   std::size_t unit = 0;
   while (bytes >= 1024 && unit + 1 < std::size(units)) {
@@ -72,9 +72,9 @@ std::string bytes_in_words(double bytes) {
 
 void check_memory_need(const std::string& subject, double needed, double limit, const std::string& by_whom) {
   if (needed <= limit) return;
-  throw LimitError(subject + " about " + bytes_in_words(needed) + " of memory, " + by_whom + "the limit is " +
-                       bytes_in_words(limit),
-                   "--max-memory");
+  throw LimitError(
+      subject + " about " + byte_text(needed) + " of memory, " + by_whom + "the limit is " + byte_text(limit),
+      "--max-memory");
 }
 
 void expect_memory(const std::string& subject, double more, std::optional<std::uint64_t> limit) {

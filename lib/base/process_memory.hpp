@@ -27,7 +27,7 @@ namespace coordreq {
 [[nodiscard]] double memory_of_threads(int threads);
 
 /// 1536 -> "1.5 KiB", as memory is told in errors.
-[[nodiscard]] std::string bytes_in_words(double bytes);
+[[nodiscard]] std::string byte_text(double bytes);
 
 /// @param subject with its verb: "25 cells need" @param needed bytes, of the whole process
 /// @param by_whom "on the fullest of 8 ranks, ", or nothing

@@ -41,7 +41,7 @@ std::int32_t FileSteps::at(std::int64_t cell) const {
   if (page.empty()) {
     const std::int64_t begin = cell / kPageCells * kPageCells;
     const std::int64_t end = std::min(begin + kPageCells, results_.grid().cells());
-    page = results_.stretch(
+    page = results_.read_run(
         begin, end, [this](const CellBlock& block) { return results_.values(path_, partition_, block); });
   }
   return page[coordreq::at(cell % kPageCells)];

@@ -13,9 +13,9 @@ namespace {
 CellSet all_safe_cells(const ResultsReader& results) {
   const UniformGrid& grid = results.grid();
   CellSet safe(grid.rows(), grid.row_length());
-  for (std::int64_t begin = 0; begin < grid.cells(); begin += kPartCells) {
-    const std::int64_t end = std::min(begin + kPartCells, grid.cells());
-    const auto members = results.stretch(
+  for (std::int64_t begin = 0; begin < grid.cells(); begin += kBlockCells) {
+    const std::int64_t end = std::min(begin + kBlockCells, grid.cells());
+    const auto members = results.read_run(
         begin, end, [&](const CellBlock& block) { return results.members(paths::kSafe, block); });
     for (std::int64_t x = begin; x < end; ++x) {
       if (members[static_cast<std::size_t>(x - begin)] != 0) safe.set(x);

@@ -34,7 +34,7 @@ std::string identifier(std::string name) {
 }
 
 /// A text of the file, without characters that could end a comment.
-std::string plain_word(std::string text) {
+std::string plain_text(std::string text) {
   std::erase_if(text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-'; });
   return text;
 }
@@ -71,7 +71,7 @@ class HeaderWriter {
     put(c_header::kOpening, fmt::arg("name", results_.spec().name), fmt::arg("partition", partition_.name),
         fmt::arg("classes", class_list()), fmt::arg("states", state_list()),
         fmt::arg("sha", results_.attributes().spec_sha256),
-        fmt::arg("guarantee", plain_word(results_.attributes().guarantee)));
+        fmt::arg("guarantee", plain_text(results_.attributes().guarantee)));
     const bool has_tables = has_limited_sight(results_.spec(), spec_);
     put(c_header::kNumbers, fmt::arg("dimensions", results_.grid().size()),
         fmt::arg("cells", results_.grid().cells()), fmt::arg("class_count", partition_.classes.size()));
@@ -83,7 +83,7 @@ class HeaderWriter {
     write_runs();
     write_sets();
     put(c_header::kFunctions);
-    if (results_.spec().ends_at_goal()) put(c_header::kOver);
+    if (results_.spec().ends_at_goal()) put(c_header::kTerminal);
     for (std::size_t k = 1; k < runs_.policies.size(); ++k) write_functions(runs_.policies[k]);
     if (has_tables) write_silent();
     sink_(c_header::kClosing);
@@ -150,7 +150,7 @@ class HeaderWriter {
     if (!results_.spec().ends_at_goal()) return;
     sink_("/* Whether the task is over. */\n");
     array("uint8_t", "entry_over", runs_.entries,
-          [](const ActionRuns::Entry& entry) { return entry.is_over ? "1" : "0"; });
+          [](const ActionRuns::Entry& entry) { return entry.is_terminal ? "1" : "0"; });
   }
 
   void write_entries(std::size_t k) const {
@@ -173,8 +173,9 @@ class HeaderWriter {
     const std::vector<FieldFlag> known = flags_of(results_.field(runs_.policies.front().trigger));
     std::string text;
     for (const FieldFlag& flag : flags_of(results_.field(policy.countdown()))) {
-      const bool is_known = std::any_of(known.begin(), known.end(),
-                                        [&flag](const FieldFlag& own) { return own.value == flag.value; });
+      const bool is_known = std::any_of(known.begin(), known.end(), [&flag](const FieldFlag& candidate) {
+        return candidate.value == flag.value;
+      });
       if (!is_known) text += fmt::format("#define $M_{} ({})\n", upper_case(flag.word), flag.value);
     }
     return text;
@@ -305,7 +306,7 @@ class HeaderWriter {
     return rows;
   }
 
-  /// A table for each state that a memory keeps, over what its next value depends on.
+  /// A table for each state that a memory keeps, by the states that its next value depends on.
   void write_memory() const {
     const ProblemSpec& spec = results_.spec();
     Abstraction tables{.grid = results_.grid(), .inputs = results_.inputs()};

@@ -39,47 +39,47 @@ class RunFinder {
         sets_(results.partitions()[partition].classes.size()) {
     controller_.prepare_all();
     for (const AnswerPolicy& policy : controller_.policies()) {
-      const bool is_told = policy.name.empty() || !policy.header.where.empty();
-      if (is_told && !policy.countdown().empty()) runs_.policies.push_back(policy);
+      const bool is_exported = policy.name.empty() || !policy.header.where.empty();
+      if (is_exported && !policy.countdown().empty()) runs_.policies.push_back(policy);
     }
   }
 
   ActionRuns run() {
-    for (std::int64_t begin = 0; begin < results_.grid().cells(); begin += kPartCells)
-      add_part(begin, std::min(begin + kPartCells, results_.grid().cells()));
+    for (std::int64_t begin = 0; begin < results_.grid().cells(); begin += kBlockCells)
+      add_cells(begin, std::min(begin + kBlockCells, results_.grid().cells()));
     runs_.entries = std::move(entries_).values();
     for (auto& one : sets_) runs_.sets.push_back(std::move(one).values());
     return std::move(runs_);
   }
 
  private:
-  using Steps = std::vector<std::vector<std::int32_t>>;  ///< [policy][cell of the part]
+  using Steps = std::vector<std::vector<std::int32_t>>;  ///< [policy][cell of the run]
 
   template <class Path>
   [[nodiscard]] Steps read(const Path& path, std::int64_t begin, std::int64_t end) const {
     Steps steps;
     for (const AnswerPolicy& policy : runs_.policies) {
-      steps.push_back(results_.stretch(begin, end, [&](const CellBlock& block) {
+      steps.push_back(results_.read_run(begin, end, [&](const CellBlock& block) {
         return results_.values(std::invoke(path, policy), partition_, block);
       }));
     }
     return steps;
   }
 
-  void add_part(std::int64_t begin, std::int64_t end) {
+  void add_cells(std::int64_t begin, std::int64_t end) {
     const Steps delays = read(&AnswerPolicy::delay, begin, end),
                 triggers = read(&AnswerPolicy::countdown, begin, end);
     std::vector<std::int32_t> arrivals;
     if (results_.spec().ends_at_goal())
-      arrivals = results_.stretch(
+      arrivals = results_.read_run(
           begin, end, [this](const CellBlock& block) { return results_.values(paths::kArrival, block); });
     for (std::int64_t cell = begin; cell < end; ++cell) {
-      const auto place = static_cast<std::size_t>(cell - begin);
+      const auto offset = static_cast<std::size_t>(cell - begin);
       ActionRuns::Entry entry;
-      entry.is_over = !arrivals.empty() && arrivals[place] == 0;
+      entry.is_terminal = !arrivals.empty() && arrivals[offset] == 0;
       for (std::size_t k = 0; k < runs_.policies.size(); ++k) {
-        entry.countdowns.push_back(triggers[k][place]);
-        add_sets(controller_.actions(runs_.policies[k], partition_, cell, delays[k][place]),
+        entry.countdowns.push_back(triggers[k][offset]);
+        add_sets(controller_.actions(runs_.policies[k], partition_, cell, delays[k][offset]),
                  runs_.policies[k].is_anywhere, entry);
       }
       const std::uint32_t number = entries_.number_of(entry);

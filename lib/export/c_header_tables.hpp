@@ -17,7 +17,7 @@ struct ActionRuns {
   struct Entry {
     std::vector<std::int32_t> countdowns;
     std::vector<std::vector<std::uint32_t>> sets;  ///< [policy][class]: number among ActionRuns::sets
-    bool is_over = false;                          ///< a goal that ends the task is reached there
+    bool is_terminal = false;                      ///< a goal that ends the task is reached there
     [[nodiscard]] auto operator<=>(const Entry&) const = default;
   };
   std::vector<AnswerPolicy> policies;   ///< those with a trigger; the first is that of the delays
@@ -30,12 +30,12 @@ struct ActionRuns {
 [[nodiscard]] ActionRuns find_action_runs(const ResultsReader& results, std::size_t partition,
                                           ThreadTeam& team);
 
-/// How cells are told apart in one dimension by comparisons of doubles: cell k holds the doubles x with
+/// How comparisons of doubles find a cell in one dimension: cell k holds the doubles x with
 /// bounds[k] <= x < bounds[k + 1], or x == bounds[k] if the dimension is discrete.
 struct DimensionBounds {
   std::vector<double> bounds;
   bool discrete = false;
-  bool wraps = false;  ///< the piece after the last cell belongs to cell 0
+  bool wraps = false;  ///< the interval after the last cell belongs to cell 0
 };
 /// Exact: each bound is the least double that is not below the face. A discrete value, and `lower` of a
 /// periodic dimension, is its nearest double.

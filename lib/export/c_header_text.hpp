@@ -1,6 +1,6 @@
 #pragma once
 
-// The parts of an exported C header that do not depend on its tables, as format strings. $P stands for the
+// The texts of an exported C header that do not depend on its tables, as format strings. $P stands for the
 // prefix of its functions and tables, $M for that of its macros.
 namespace coordreq::c_header {
 
@@ -133,7 +133,7 @@ static inline int $P_allowed(int32_t cell, uint32_t c, uint32_t a) {{
 )c";
 
 /// The function for a goal that ends the task.
-inline constexpr char kOver[] = R"c(
+inline constexpr char kTerminal[] = R"c(
 /* Whether the task is over: in a cell of the goal, and in $M_LEFT_SAFELY. There nothing that follows matters, and
    what other functions say of actions is of no use. */
 static inline int $P_is_over(int32_t cell) {{

@@ -22,7 +22,7 @@ std::vector<std::size_t> drawn_states(const UniformGrid& grid, const TableSelect
   std::vector<std::size_t> drawn;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const auto is_this = [i](const auto& part) { return part.dimension == i; };
+    const auto is_this = [i](const auto& item) { return item.dimension == i; };
     if (std::any_of(selection.slices.begin(), selection.slices.end(), is_this)) continue;
     if (std::any_of(selection.projections.begin(), selection.projections.end(), is_this)) continue;
     drawn.push_back(i);
@@ -37,7 +37,7 @@ std::vector<std::size_t> drawn_states(const UniformGrid& grid, const TableSelect
 
 std::string cut_text(const ResultsReader& results, const TableSelection& selection) {
   std::string text;
-  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  const auto add = [&text](const std::string& item) { text += (text.empty() ? "" : ", ") + item; };
   for (const TableSelection::Slice& slice : selection.slices) {
     const GridDimension& dimension = results.grid()[slice.dimension];
     const std::string& unit = results.spec().states[slice.dimension].unit;
@@ -101,9 +101,10 @@ ImageContent cell_image(const ResultsReader& results, const TableSelection& sele
                                           : image.cells[0] * image.cells[1]);
   }
   table.for_each_row([&](const std::vector<std::int64_t>& index, const std::vector<std::int32_t>& values) {
-    std::uint64_t place = 0;
-    for (std::size_t i = 0; i < index.size(); ++i) place += stride[i] * static_cast<std::uint64_t>(index[i]);
-    for (std::size_t c = 0; c < values.size(); ++c) (*columns[c])[place] = values[c];
+    std::uint64_t position = 0;
+    for (std::size_t i = 0; i < index.size(); ++i)
+      position += stride[i] * static_cast<std::uint64_t>(index[i]);
+    for (std::size_t c = 0; c < values.size(); ++c) (*columns[c])[position] = values[c];
   });
   return image;
 }

@@ -27,13 +27,13 @@ struct TableSelection {
   std::optional<std::size_t> partition;  ///< none: all
 };
 
-/// A column of numbers over cells: of each field that is shown as one, and for each entry where it has a
+/// A column of numbers by cell: of each field that is displayed as one, and for each entry where it has a
 /// leading axis.
 struct CellColumn {
   std::string name;
   const Field* field = nullptr;
-  std::optional<std::size_t> leading;  ///< place along the axis before those of the cells
-  /// Rank of a value where numbers are compared: codes of what is no number of steps have their place.
+  std::optional<std::size_t> leading;  ///< position along the axis before those of the cells
+  /// Rank of a value where numbers are compared: codes of what is no number of steps have theirs.
   [[nodiscard]] double rank(std::int32_t value) const;
   /// A value as a number: infinity for kUnbounded, a probability for its bits.
   [[nodiscard]] double number(std::int32_t value) const;
@@ -41,15 +41,15 @@ struct CellColumn {
 [[nodiscard]] std::vector<CellColumn> cell_columns(const ResultsReader& results,
                                                    std::optional<std::size_t> partition);
 
-/// The columns over what a selection leaves of the cells, in the row-major order of the dimensions that
+/// The columns of the cells that a selection leaves, in the row-major order of the dimensions that
 /// remain.
 ///
-/// Parts of about a million cells, fewer if memory is limited, are read at a time. Without projections each
+/// Blocks of about a million cells, fewer if memory is limited, are read at a time. Without projections each
 /// is handed on at once; with projections memory is 4 bytes for each column and each cell that is left after
 /// the first projections of one kind.
 class CellTable {
  public:
-  /// Memory of going over the rows of a table, in bytes.
+  /// Memory of reading the rows of a table, in bytes.
   [[nodiscard]] static double bytes(const ResultsReader& results, const TableSelection& selection);
 
   /// @pre every dimension at most once in the selection. @pre unchecked: `results` outlives this object
@@ -67,9 +67,9 @@ class CellTable {
  private:
   using Values = std::vector<std::vector<std::int32_t>>;  // by column
 
-  void for_each_part(CellBlock block, std::size_t dimension,
-                     const std::function<void(const CellBlock&)>& visit) const;
-  [[nodiscard]] Values read(const CellBlock& part) const;
+  void for_each_block(CellBlock block, std::size_t dimension,
+                      const std::function<void(const CellBlock&)>& visit) const;
+  [[nodiscard]] Values read(const CellBlock& block) const;
   void visit_rows(const CellBlock& block, const Values& values, const Row& row) const;
   [[nodiscard]] Values projected(CellBlock& block) const;
   void merge(std::size_t column, std::int32_t value, bool largest, std::int32_t& into, bool first) const;
@@ -79,7 +79,7 @@ class CellTable {
   std::vector<CellColumn> columns_;
   std::vector<std::size_t> kept_;
   CellBlock block_;  ///< after slices
-  std::int64_t part_cells_;
+  std::int64_t block_cells_;
 };
 
 /// Reads "v2=2.8" (the cells in which v2 has this value) and "p2:min" or "p2:max", one or several with commas

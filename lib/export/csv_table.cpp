@@ -16,9 +16,9 @@ void export_csv(const ResultsReader& results, const TableSelection& selection, c
   for (const std::size_t i : table.dimensions()) {
     const GridDimension& dimension = results.grid()[i];
     text += dimension.name + ",";
-    std::vector<std::string>& shown = points.emplace_back();
+    std::vector<std::string>& texts = points.emplace_back();
     for (std::int64_t k = 0; k < dimension.count; ++k) {
-      shown.push_back(fmt::format("{},", nearest_double(dimension.point(k))));
+      texts.push_back(fmt::format("{},", nearest_double(dimension.point(k))));
     }
   }
   for (std::size_t c = 0; c < table.columns().size(); ++c)

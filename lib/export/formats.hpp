@@ -16,17 +16,17 @@
 
 namespace coordreq {
 
-/// Takes an exported text piece by piece, in order; may throw.
+/// Takes an exported text in segments, in order; may throw.
 using TextSink = std::function<void(std::string_view)>;
 
-/// Values over a box of cells in three dimensions, as plain data for tools that draw. Where fewer states are
+/// Values on a box of cells in three dimensions, as plain data for tools that draw. Where fewer states are
 /// shown, the other dimensions have one cell and an axis without a name.
 struct ImageContent {
   std::string title;
-  std::array<std::string, 3> axes;         ///< of x, y, z: "p1 [m]"
-  std::string cut;                         ///< what is shown of the other states: "v2 = 2.8 m/s, p2: min"
-  std::array<double, 3> origin{};          ///< the corner at the lower end of all axes
-  std::array<double, 3> spacing{1, 1, 1};  ///< sides of a cell
+  std::array<std::string, 3> axes;              ///< of x, y, z: "p1 [m]"
+  std::string cut;                              ///< the cut through the other states: "v2 = 2.8 m/s, p2: min"
+  std::array<double, 3> origin{};               ///< the corner at the lower end of all axes
+  std::array<double, 3> spacing{1, 1, 1};       ///< sides of a cell
   std::array<std::uint64_t, 3> cells{1, 1, 1};  ///< along each axis
 
   struct Array {
@@ -41,9 +41,9 @@ struct ImageContent {
 /// file with "inf" for its maximum. The first line names the columns.
 void export_csv(const ResultsReader& results, const TableSelection& selection, const TextSink& sink);
 
-/// The columns of a table over cells as an image: the states that the selection leaves are its axes, in the
+/// The columns of a table of cells as an image: the states that the selection leaves are its axes, in the
 /// order of the spec. Each array is float64, coded as in the results file, with infinity for its maximum, so
-/// that a colour scale over what is finite shows the steps.
+/// that a colour scale of the finite values shows the steps.
 ///
 /// Memory: 4 bytes for each cell that is left and each column.
 /// @throws UsageError if more than three states are left

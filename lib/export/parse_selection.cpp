@@ -61,11 +61,11 @@ TableSelection parse_selection(const std::vector<std::string>& slices,
   SelectionParser parser(grid);
   TableSelection selection;
   for (const std::string& text : slices) {
-    for (const std::string_view part : split_at_commas(text)) parser.slice(trimmed(part), selection.slices);
+    for (const std::string_view item : split_at_commas(text)) parser.slice(trimmed(item), selection.slices);
   }
   for (const std::string& text : projections) {
-    for (const std::string_view part : split_at_commas(text))
-      parser.projection(trimmed(part), selection.projections);
+    for (const std::string_view item : split_at_commas(text))
+      parser.projection(trimmed(item), selection.projections);
   }
   return selection;
 }

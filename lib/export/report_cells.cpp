@@ -26,17 +26,17 @@ Indices spread(const GridDimension& dimension, std::int64_t most) {
   return indices;
 }
 
-/// Puts each pin in the place of the nearest index that is no pin itself, while there is one.
+/// Replaces the nearest index that is no pin itself by each pin, while there is one.
 void pin(Indices& indices, const Indices& pins) {
   std::vector<bool> kept(indices.size(), false);
-  for (const std::int64_t wanted : pins) {
+  for (const std::int64_t pinned : pins) {
     std::optional<std::size_t> nearest;
     for (std::size_t j = 0; j < indices.size(); ++j) {
-      if (indices[j] != wanted && kept[j]) continue;
-      if (!nearest || std::abs(indices[j] - wanted) < std::abs(indices[*nearest] - wanted)) nearest = j;
+      if (indices[j] != pinned && kept[j]) continue;
+      if (!nearest || std::abs(indices[j] - pinned) < std::abs(indices[*nearest] - pinned)) nearest = j;
     }
     if (!nearest) return;
-    indices[*nearest] = wanted;
+    indices[*nearest] = pinned;
     kept[*nearest] = true;
   }
 }
@@ -65,22 +65,22 @@ void share(const UniformGrid& grid, std::vector<std::size_t> dimensions, std::in
 
 ReportCells cells_of_pair(const UniformGrid& grid, std::size_t x, std::size_t y, std::int64_t room,
                           const std::vector<std::vector<std::int64_t>>& pins) {
-  std::vector<std::size_t> shown = {x}, others;
-  if (y != x) shown.push_back(y);
+  std::vector<std::size_t> pair = {x}, others;
+  if (y != x) pair.push_back(y);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (i != x && i != y) others.push_back(i);
   }
   std::vector<std::int64_t> counts(grid.size());
-  share(grid, shown, room, counts);
+  share(grid, pair, room, counts);
   share(grid, others, room, counts);
   ReportCells cells;
   cells.shows.emplace(x, y);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     cells.indices.push_back(spread(grid[i], counts[i]));
     if (i == x || i == y) continue;
-    Indices wanted;
-    for (const std::vector<std::int64_t>& cell : pins) wanted.push_back(cell[i]);
-    pin(cells.indices.back(), wanted);
+    Indices pinned;
+    for (const std::vector<std::int64_t>& cell : pins) pinned.push_back(cell[i]);
+    pin(cells.indices.back(), pinned);
     std::sort(cells.indices.back().begin(), cells.indices.back().end());
   }
   return cells;

@@ -73,24 +73,24 @@ std::string kind_of_map(const ResultsReader& results, RequirementKind kind) {
 }
 
 /// The cells that the counterexamples visit; `independent` steps lead out of K.
-Json ways_json(const ResultsReader& results) {
-  Json ways = Json::array();
+Json paths_json(const ResultsReader& results) {
+  Json paths = Json::array();
   const std::vector<ResultRequirement> all = read_requirement_values(results.spec(), results);
   for (std::size_t r = 0; r < all.size(); ++r) {
     const ResultRequirement& requirement = all[r];
     if (!requirement.path) continue;
-    Json& way = ways.emplace_back();
+    Json& path = paths.emplace_back();
     const auto& partition = results.spec().requirements[r].partition;
-    way["kind"] = kind_of_map(results, results.spec().requirements[r].kind);
-    way["requirement"] = requirement.name;
-    way["partition"] = partition ? Json(*partition) : Json();
+    path["kind"] = kind_of_map(results, results.spec().requirements[r].kind);
+    path["requirement"] = requirement.name;
+    path["partition"] = partition ? Json(*partition) : Json();
     const auto& phase = requirement.path->phase;
-    way["independent"] = std::count(phase.begin(), phase.end(), PathPhase::independent);
-    way["cells"] = Json::array();
+    path["independent"] = std::count(phase.begin(), phase.end(), PathPhase::independent);
+    path["cells"] = Json::array();
     for (const std::uint64_t cell : requirement.path->cell)
-      way["cells"].push_back(index_of(results.grid(), static_cast<std::int64_t>(cell)));
+      path["cells"].push_back(index_of(results.grid(), static_cast<std::int64_t>(cell)));
   }
-  return ways;
+  return paths;
 }
 
 /// Where K is empty: the first cell from which the worst case takes longest to leave S, the best that there
@@ -130,7 +130,7 @@ std::string text_of(const Json& json) {
 
 double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
   constexpr double kBytesOfValue = 2 * sizeof(std::int32_t);  // with its code, packed or not
-  constexpr double kUsualPacked = 0.3, kCopies = 6;           // of the text, on its way into the page
+  constexpr double kUsualPacked = 0.3, kCopies = 6;           // of the text, until it is in the page
   constexpr double kTemplate = 1.5 * 1024 * 1024;
   const auto cells = static_cast<double>(results.grid().cells());
   double maps = 0;
@@ -144,7 +144,7 @@ double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
   double points = 0;
   for (const GridDimension& dimension : results.grid().dimensions())
     points += static_cast<double>(dimension.count);
-  // Every step of a counterexample is told in the text, and drawn.
+  // Every step of a counterexample is described in the text, and drawn.
   constexpr double kBytesOfNumber = 350;
   const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
   double steps = 0;
@@ -169,8 +169,8 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
   }
   const Json latest = latest_json(results, data.best_cells);
   if (!latest.is_null()) pins.push_back(latest.get<std::vector<std::int64_t>>());
-  const Json ways = ways_json(results);
-  for (const Json& way : ways) pins.push_back(way["cells"].front().get<std::vector<std::int64_t>>());
+  const Json paths = paths_json(results);
+  for (const Json& path : paths) pins.push_back(path["cells"].front().get<std::vector<std::int64_t>>());
   Json json;
   json["period"] = results.attributes().period;
   json["unit"] = results.spec().dynamics.unit;
@@ -178,7 +178,7 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
   json["states"] = states_json(results);
   json["partitions"] = partitions_json(results);
   json["latest"] = latest;
-  json["ways"] = ways;
+  json["ways"] = paths;
   std::int64_t cells = std::max<std::int64_t>(limits.values / static_cast<std::int64_t>(maps.size()), 1);
   for (;; cells = std::min(cells, grid.cells()) / 2) {
     const std::vector<ReportCells> sets = choose_cells(grid, std::max<std::int64_t>(cells, 1), pins);

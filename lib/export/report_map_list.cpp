@@ -20,7 +20,7 @@ std::shared_ptr<Json> head_of(const Field& field) {
   return head;
 }
 
-/// The page learns what values mean from the flags, unless it has words of its own for the field.
+/// The page learns what values mean from the flags, unless it has its own texts for the field.
 ReportMap number_map(const ResultsReader& results, const Field& field, Leading leading) {
   ReportMap map{.head = head_of(field), .read = [&results, &field, leading](const CellBlock& block) {
                   return results.values(field, leading, block);
@@ -30,9 +30,9 @@ ReportMap number_map(const ResultsReader& results, const Field& field, Leading l
   if (!field.display.map.title.empty()) {
     head["title"] = field.display.map.title;
     head["meanings"] = Json::array();
-    for (auto [value, word] : flags_of(field)) {
-      std::replace(word.begin(), word.end(), '_', ' ');
-      head["meanings"].push_back({value == kLargestValue ? Json("infinite") : Json(value), word});
+    for (auto [value, label] : flags_of(field)) {
+      std::replace(label.begin(), label.end(), '_', ' ');
+      head["meanings"].push_back({value == kLargestValue ? Json("infinite") : Json(value), label});
     }
   }
   if (!field.display.map.legend) return map;
@@ -64,12 +64,12 @@ std::int32_t share_code(float share) {
   return std::clamp(static_cast<std::int32_t>(std::lround(share * float{kAll})), 1, kAll - 1);
 }
 
-/// 0, or 1 and hundredths of a power of ten from the least one on that is told apart; rounded up.
+/// 0, or 1 and hundredths of a power of ten from the least one on that is distinguished; rounded up.
 std::int32_t probability_code(float probability) {
-  constexpr double kParts = 100, kLeast = -12;
+  constexpr double kHundredths = 100, kLeast = -12;
   if (probability == 0) return 0;
   const double power = std::max(std::log10(double{probability}), kLeast);
-  return 1 + static_cast<std::int32_t>(std::ceil((power - kLeast) * kParts));
+  return 1 + static_cast<std::int32_t>(std::ceil((power - kLeast) * kHundredths));
 }
 
 /// A share or a probability, of one entry of the leading axis; outside K there are none.
@@ -95,7 +95,7 @@ ReportMap real_map(const ResultsReader& results, const Field& field, Leading lea
   return map;
 }
 
-/// All maps of a field that is not over partitions.
+/// All maps of a field that is not by partition.
 void add_maps(const ResultsReader& results, const Field& field, const ReportLimits& limits,
               std::vector<ReportMap>& maps) {
   const std::size_t entries = results.leading_length(field);
@@ -119,7 +119,8 @@ std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector
                                  const ReportLimits& limits) {
   std::vector<const Field*> drawn;
   for (const Field& field : answer_fields(results.spec())) {
-    if (!field.display.map.kind.empty() && results.has(field.path)) drawn.push_back(&results.field(field.path));
+    if (!field.display.map.kind.empty() && results.has(field.path))
+      drawn.push_back(&results.field(field.path));
   }
   const auto others = std::stable_partition(
       drawn.begin(), drawn.end(), [](const Field* field) { return field->axes.front() == "/partition"; });

@@ -19,28 +19,28 @@ namespace {
 constexpr int kLevel = 9;
 constexpr std::int32_t kLowestFlag = -3;
 
-/// The values of one set of cells, gathered from the parts that they lie in.
+/// The values of one set of cells, gathered from the blocks that they lie in.
 class Gathering {
  public:
   explicit Gathering(const ReportCells& cells)
       : cells_(cells), values_(static_cast<std::size_t>(cells.count())) {}
 
-  void add(const CellBlock& part, const std::vector<std::int32_t>& values) { visit(part, values, 0, 0, 0); }
+  void add(const CellBlock& block, const std::vector<std::int32_t>& values) { visit(block, values, 0, 0, 0); }
   [[nodiscard]] const std::vector<std::int32_t>& values() const { return values_; }
 
  private:
   /// @param source,target number of the row-major prefix of the indices before dimension i
-  void visit(const CellBlock& part, const std::vector<std::int32_t>& values, std::size_t i,
+  void visit(const CellBlock& block, const std::vector<std::int32_t>& values, std::size_t i,
              std::int64_t source, std::int64_t target) {
     const std::vector<std::int64_t>& indices = cells_.indices[i];
-    const std::int64_t first = part.first[i], count = part.count[i];
+    const std::int64_t first = block.first[i], count = block.count[i];
     source *= count;
     target *= static_cast<std::int64_t>(indices.size());
     const auto begin = std::lower_bound(indices.begin(), indices.end(), first);
     for (auto k = begin; k != indices.end() && *k < first + count; ++k) {
       const std::int64_t from = source + *k - first, to = target + (k - indices.begin());
       if (i + 1 < cells_.indices.size()) {
-        visit(part, values, i + 1, from, to);
+        visit(block, values, i + 1, from, to);
       } else {
         values_[static_cast<std::size_t>(to)] = values[static_cast<std::size_t>(from)];
       }
@@ -95,8 +95,8 @@ PackedMaps pack_map(const UniformGrid& grid, const ReadCells& read, const std::v
   for (const ReportCells& cells : sets) gatherings.emplace_back(cells);
   PackedMaps maps;
   std::set<std::int32_t> flags;
-  for_each_part(grid, read, [&](const CellBlock& part, const std::vector<std::int32_t>& values) {
-    for (Gathering& gathering : gatherings) gathering.add(part, values);
+  for_each_block(grid, read, [&](const CellBlock& block, const std::vector<std::int32_t>& values) {
+    for (Gathering& gathering : gatherings) gathering.add(block, values);
     for (const std::int32_t value : values) {
       if (value < 0 || value == kUnbounded) {
         flags.insert(value);

@@ -25,7 +25,7 @@ struct PackedMap {
 /// One map for each of some sets of cells.
 struct PackedMaps {
   std::vector<PackedMap> sets;
-  std::int32_t largest = 0;         ///< finite value, over all cells of the file; 0 if none is larger
+  std::int32_t largest = 0;         ///< finite value, in all cells of the file; 0 if none is larger
   std::vector<std::int32_t> flags;  ///< and what else there is, ascending
 };
 
@@ -64,7 +64,7 @@ class MemberMap {
   const ResultsReader& results_;
   ReadMember read_;
   std::vector<std::string> names_;
-  std::size_t shown_, most_sets_;
+  std::size_t mapped_, most_sets_;
   std::vector<std::uint64_t> sets_;
   std::unordered_map<std::uint64_t, std::int32_t> numbers_;
 };
@@ -78,7 +78,7 @@ struct ReportMap {
   std::function<void(Json& head)> legend = {};
 };
 
-/// The maps of a page, of every field that is drawn: first those over partitions for each of `partitions`,
+/// The maps of a page, of every field that is drawn: first those by partition for each of `partitions`,
 /// then the others in the order of the answers. @pre unchecked: `results` outlives them.
 [[nodiscard]] std::vector<ReportMap> list_maps(const ResultsReader& results,
                                                const std::vector<std::size_t>& partitions,

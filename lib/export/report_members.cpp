@@ -16,7 +16,7 @@ MemberMap::MemberMap(const ResultsReader& results, ReadMember read, std::vector<
     : results_(results),
       read_(std::move(read)),
       names_(std::move(names)),
-      shown_(std::min(names_.size(), most)),
+      mapped_(std::min(names_.size(), most)),
       most_sets_(most_sets) {
   REQUIRES(1 <= most && most <= 64 && most_sets >= 2);
 }
@@ -24,7 +24,7 @@ MemberMap::MemberMap(const ResultsReader& results, ReadMember read, std::vector<
 std::vector<std::int32_t> MemberMap::read(const CellBlock& block) {
   std::vector<std::int32_t> values = results_.values(paths::kCollisionTime, block);
   std::vector<std::uint64_t> sets(values.size());
-  for (std::size_t member = 0; member < shown_; ++member) {
+  for (std::size_t member = 0; member < mapped_; ++member) {
     const std::vector<std::uint8_t> holds = read_(member, block);
     for (std::size_t x = 0; x < holds.size(); ++x) sets[x] |= std::uint64_t{holds[x]} << member;
   }
@@ -41,13 +41,13 @@ std::int32_t MemberMap::number(std::uint64_t set) {
 }
 
 void MemberMap::halve() {
-  shown_ = std::max<std::size_t>(shown_ / 2, 1);
+  mapped_ = std::max<std::size_t>(mapped_ / 2, 1);
   sets_.clear();
   numbers_.clear();
 }
 
 std::vector<std::string> MemberMap::names() const {
-  return {names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(shown_)};
+  return {names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(mapped_)};
 }
 
 std::vector<std::string> MemberMap::sets() const {

@@ -11,17 +11,17 @@
 namespace coordreq {
 namespace {
 
-using Places = std::map<std::string_view, std::string_view>;
+using Values = std::map<std::string_view, std::string_view>;
 
 /// The template with each "{{name}}" replaced; what is put in is not looked at again.
-std::string filled(std::string_view form, const Places& places) {
+std::string filled(std::string_view form, const Values& values) {
   std::string page;
   while (true) {
     const std::size_t open = form.find("{{");
     page += form.substr(0, open);
     if (open == std::string_view::npos) return page;
     const std::size_t close = form.find("}}", open);
-    page += places.at(form.substr(open + 2, close - open - 2));
+    page += values.at(form.substr(open + 2, close - open - 2));
     form.remove_prefix(close + 2);
   }
 }

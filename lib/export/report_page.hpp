@@ -3,13 +3,13 @@
 #include <string>
 #include <string_view>
 
-// The parts of the page, files of lib/export/report that the program carries.
+// The templates of the page, files of lib/export/report that the program carries.
 namespace coordreq {
 
 /// `text` as HTML or XML text or attribute value: & < > " ' as entities.
 [[nodiscard]] std::string html_text(std::string_view text);
 
-/// The parts of a page.
+/// The contents of a page.
 struct ReportPage {
   std::string title;    ///< plain text
   std::string summary;  ///< HTML: what stands before the pictures

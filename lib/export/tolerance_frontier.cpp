@@ -15,20 +15,20 @@ namespace {
 class Tolerated {
  public:
   Tolerated(const ResultsReader& results, const ToleranceQuestion& question) : question_(question) {
-    for (const ToleranceQuestion::Over& over : question.over)
-      counts_.push_back(results.grid()[over.state].count);
+    for (const ToleranceQuestion::Axis& axis : question.axes)
+      counts_.push_back(results.grid()[axis.state].count);
     counts_.resize(2, 1);
     holds_.assign(static_cast<std::size_t>(counts_[0] * counts_[1]), true);
     const CellTable table(results,
                           {.slices = question.given, .projections = {}, .partition = question.partition});
-    const RequirementDataset asked = dataset_of(question.kind, results.spec());
+    const RequirementDataset dataset = dataset_of(question.kind, results.spec());
     std::size_t column = 0;
-    while (table.columns()[column].field->path != asked.path) ++column;
-    column += asked.entry;
+    while (table.columns()[column].field->path != dataset.path) ++column;
+    column += dataset.entry;
     table.for_each_row([&](const std::vector<std::int64_t>& index, const std::vector<std::int32_t>& values) {
       if (keeps_limit(values[column])) return;
-      const std::int64_t second = question.over.size() > 1 ? rank(1, index[question.over[1].state]) : 0;
-      holds_[at(rank(0, index[question.over[0].state]) * counts_[1] + second)] = false;
+      const std::int64_t second = question.axes.size() > 1 ? rank(1, index[question.axes[1].state]) : 0;
+      holds_[at(rank(0, index[question.axes[0].state]) * counts_[1] + second)] = false;
     });
   }
 
@@ -48,9 +48,9 @@ class Tolerated {
     std::vector<std::int64_t> all;
     std::int64_t reach = counts_[1];
     for (std::int64_t i = 0; i < counts_[0]; ++i) {
-      std::int64_t own = 0;
-      while (own < reach && holds_[at(i * counts_[1] + own)]) ++own;
-      reach = own;
+      std::int64_t length = 0;
+      while (length < reach && holds_[at(i * counts_[1] + length)]) ++length;
+      reach = length;
       all.push_back(reach);
     }
     return all;
@@ -58,7 +58,7 @@ class Tolerated {
 
   /// The index of a rank, and the other way round.
   [[nodiscard]] std::int64_t rank(std::size_t state, std::int64_t index) const {
-    return question_.over[state].is_large_best ? counts_[state] - 1 - index : index;
+    return question_.axes[state].is_large_best ? counts_[state] - 1 - index : index;
   }
 
  private:
@@ -75,10 +75,10 @@ class Tolerated {
 
 [[maybe_unused]] bool are_all_different(const ToleranceQuestion& question) {
   std::set<std::size_t> states;
-  return std::ranges::all_of(question.over,
-                             [&](const auto& own) { return states.insert(own.state).second; }) &&
+  return std::ranges::all_of(question.axes,
+                             [&](const auto& axis) { return states.insert(axis.state).second; }) &&
          std::ranges::all_of(question.given,
-                             [&](const auto& own) { return states.insert(own.dimension).second; });
+                             [&](const auto& slice) { return states.insert(slice.dimension).second; });
 }
 
 }  // namespace
@@ -92,9 +92,9 @@ Tolerance find_tolerance(const ResultsReader& results, const ToleranceQuestion& 
     const std::int64_t worse = i + 1 < reach.size() ? reach[i + 1] : 0;
     if (reach[i] == worse) continue;
     corners.push_back({tolerated.rank(0, static_cast<std::int64_t>(i))});
-    if (question.over.size() > 1) corners.back().push_back(tolerated.rank(1, reach[i] - 1));
+    if (question.axes.size() > 1) corners.back().push_back(tolerated.rank(1, reach[i] - 1));
   }
-  if (question.over.size() > 1) return {std::move(corners), {}};
+  if (question.axes.size() > 1) return {std::move(corners), {}};
   return {std::move(corners), tolerated.runs()};
 }
 

@@ -20,16 +20,16 @@ struct ToleranceQuestion {
   std::int64_t steps = 1;
   double risk = 0;
   /// A state whose values are sought, and whether larger ones are better.
-  struct Over {
+  struct Axis {
     std::size_t state = 0;
     bool is_large_best = true;
   };
-  std::vector<Over> over;                    ///< one or two
+  std::vector<Axis> axes;                    ///< one or two
   std::vector<TableSelection::Slice> given;  ///< cells of other states; of those not named every value counts
 };
 
-/// Indices of the states asked about: in the cell of these and in all that are better in each state, the
-/// delay is as large as asked for, whatever the states are that were not given.
+/// Indices of the states in question: in the cell of these and in all that are better in each state, the
+/// delay is as large as required, whatever the states are that were not given.
 using FrontierCorner = std::vector<std::int64_t>;
 
 /// The least such region: its corners, none of which lies in the region of another, by the first state, the

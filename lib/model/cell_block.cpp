@@ -31,7 +31,7 @@ CellBlock one_cell(const UniformGrid& grid, std::int64_t cell) {
   return block;
 }
 
-std::vector<CellBlock> blocks_of_stretch(const UniformGrid& grid, std::int64_t begin, std::int64_t end) {
+std::vector<CellBlock> blocks_of_run(const UniformGrid& grid, std::int64_t begin, std::int64_t end) {
   REQUIRES(0 <= begin && begin <= end && end <= grid.cells());
   std::vector<CellBlock> blocks;
   while (begin < end) {

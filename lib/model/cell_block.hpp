@@ -8,7 +8,7 @@
 namespace coordreq {
 
 /// Number of cells that are read at a time by code that goes through a whole array.
-inline constexpr std::int64_t kPartCells = 1 << 20;
+inline constexpr std::int64_t kBlockCells = 1 << 20;
 
 /// A box of cells: the grid indices first[i], ..., first[i] + count[i] - 1 of each dimension i. Arrays over
 /// it are row-major, the last dimension fastest.
@@ -25,7 +25,7 @@ struct CellBlock {
 
 /// The cells with linear indices begin, ..., end - 1 as at most 2 * grid.size() - 1 blocks, which one after
 /// the other hold them in that order. @pre 0 <= begin <= end <= grid.cells()
-[[nodiscard]] std::vector<CellBlock> blocks_of_stretch(const UniformGrid& grid, std::int64_t begin,
-                                                       std::int64_t end);
+[[nodiscard]] std::vector<CellBlock> blocks_of_run(const UniformGrid& grid, std::int64_t begin,
+                                                   std::int64_t end);
 
 }  // namespace coordreq

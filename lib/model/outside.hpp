@@ -78,6 +78,6 @@ struct ResolvedRange {
 [[nodiscard]] ResolvedRange resolve(IndexRange raw, std::int64_t count, Outside below, Outside above);
 
 /// A rule for leaving the domain as the spec has it: "saturate".
-[[nodiscard]] const char* outside_word(Outside rule);
+[[nodiscard]] const char* outside_name(Outside rule);
 
 }  // namespace coordreq

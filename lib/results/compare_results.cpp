@@ -43,8 +43,8 @@ template <class Read, class Visit>
 void for_each_part(const ResultsReader& before, const ResultsReader& after, const Read& read,
                    const Visit& visit) {
   const std::int64_t cells = before.grid().cells();
-  for (std::int64_t begin = 0; begin < cells; begin += kPartCells) {
-    const std::int64_t end = std::min(begin + kPartCells, cells);
+  for (std::int64_t begin = 0; begin < cells; begin += kBlockCells) {
+    const std::int64_t end = std::min(begin + kBlockCells, cells);
     visit(begin, read(before, begin, end, true), read(after, begin, end, false));
   }
 }
@@ -52,8 +52,8 @@ void for_each_part(const ResultsReader& before, const ResultsReader& after, cons
 SetComparison compare_sets(const ResultsReader& before, const ResultsReader& after, const Field& field) {
   SetComparison result{.name = field.path.substr(1), .words = field.display.compared};
   const auto read = [&field](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool) {
-    return file.stretch(begin, end,
-                        [&](const CellBlock& block) { return file.members(field, std::nullopt, block); });
+    return file.read_run(begin, end,
+                         [&](const CellBlock& block) { return file.members(field, std::nullopt, block); });
   };
   for_each_part(before, after, read, [&result](std::int64_t, const auto& old, const auto& now) {
     for (std::size_t i = 0; i < old.size(); ++i) {
@@ -133,8 +133,8 @@ void compare_values(const ResultsReader& before, const ResultsReader& after, con
       pair ? field.axes.front().substr(1) + " " + before.leading_names(field)[pair->before] : result.words;
   const auto read = [&](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {
     const Leading leading = pair ? Leading(earlier ? pair->before : pair->after) : std::nullopt;
-    return file.stretch(begin, end,
-                        [&](const CellBlock& block) { return file.values(field, leading, block); });
+    return file.read_run(begin, end,
+                         [&](const CellBlock& block) { return file.values(field, leading, block); });
   };
   for_each_part(before, after, read, [&](std::int64_t begin, const auto& old, const auto& now) {
     if (options.progress) options.progress(subject);

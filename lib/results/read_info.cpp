@@ -43,8 +43,8 @@ void add_axes(const ResultsReader& results, Json& info) {
     const StateSpec& state = results.spec().states[i];
     const GridSpec& grid = state.grid;
     info["states"].push_back(axis_json(state.name, state.unit, grid.count, grid.first, grid.last()));
-    info["states"].back()["outside"] = {{"below", outside_word(state.below)},
-                                        {"above", outside_word(state.above)}};
+    info["states"].back()["outside"] = {{"below", outside_name(state.below)},
+                                        {"above", outside_name(state.above)}};
   }
   info["inputs"] = Json::array();
   for (const InputSpec& input : results.spec().inputs) {

@@ -133,7 +133,7 @@ double ResultsReader::reading_bytes() const {
     stored += elements(field) * static_cast<double>(element_size(file_->element_type(field.path)));
   }
   return std::min(stored, static_cast<double>(cache_bytes_)) +
-         kBytesOfCell * static_cast<double>(std::min(grid_.cells(), kPartCells));
+         kBytesOfCell * static_cast<double>(std::min(grid_.cells(), kBlockCells));
 }
 
 std::size_t ResultsReader::leading_length(const Field& field) const {

@@ -52,7 +52,7 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Bytes that reading may take, if that is limited.
   [[nodiscard]] std::optional<std::uint64_t> max_memory() const { return max_memory_; }
-  /// Memory of reading cells, at most kPartCells at a time, with the chunks that are kept.
+  /// Memory of reading cells, at most kBlockCells at a time, with the chunks that are kept.
   [[nodiscard]] double reading_bytes() const;
   /// The embedded spec, read by read_spec().
   [[nodiscard]] const ProblemSpec& spec() const;
@@ -131,9 +131,9 @@ class ResultsReader : public FieldSource {
   /// joined. Example: results.stretch(0, 1000, [&](const CellBlock& b) { return results.members("/safe", b);
   /// })
   template <class Read>
-  [[nodiscard]] auto stretch(std::int64_t begin, std::int64_t end, const Read& read) const {
+  [[nodiscard]] auto read_run(std::int64_t begin, std::int64_t end, const Read& read) const {
     decltype(read(CellBlock())) all;
-    for (const CellBlock& block : blocks_of_stretch(grid_, begin, end)) {
+    for (const CellBlock& block : blocks_of_run(grid_, begin, end)) {
       const auto part = read(block);
       all.insert(all.end(), part.begin(), part.end());
     }
@@ -163,10 +163,10 @@ using ReadCells = std::function<std::vector<std::int32_t>(const CellBlock&)>;
 
 /// Calls `visit(block, values)` for all cells in row-major order, about a million at a time.
 template <class Visit>
-void for_each_part(const UniformGrid& grid, const ReadCells& read, const Visit& visit) {
-  for (std::int64_t begin = 0; begin < grid.cells(); begin += kPartCells) {
-    const std::int64_t end = std::min(begin + kPartCells, grid.cells());
-    for (const CellBlock& block : blocks_of_stretch(grid, begin, end)) visit(block, read(block));
+void for_each_block(const UniformGrid& grid, const ReadCells& read, const Visit& visit) {
+  for (std::int64_t begin = 0; begin < grid.cells(); begin += kBlockCells) {
+    const std::int64_t end = std::min(begin + kBlockCells, grid.cells());
+    for (const CellBlock& block : blocks_of_run(grid, begin, end)) visit(block, read(block));
   }
 }
 

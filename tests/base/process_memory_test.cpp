@@ -93,9 +93,9 @@ TEST(CheckMemoryNeed, TheLimitItselfIsEnough) {
 }
 
 TEST(BytesInWords, HasATenthAndAUnit) {
-  EXPECT_EQ(bytes_in_words(512), "512.0 B");
-  EXPECT_EQ(bytes_in_words(1536), "1.5 KiB");
-  EXPECT_EQ(bytes_in_words(25.0 * kMebi), "25.0 MiB");
+  EXPECT_EQ(byte_text(512), "512.0 B");
+  EXPECT_EQ(byte_text(1536), "1.5 KiB");
+  EXPECT_EQ(byte_text(25.0 * kMebi), "25.0 MiB");
 }
 
 }  // namespace

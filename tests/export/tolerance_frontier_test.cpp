@@ -29,11 +29,11 @@ class ToleranceFrontier : public testing::Test {
   }
 
   using Corners = std::vector<FrontierCorner>;
-  using Over = ToleranceQuestion::Over;
-  [[nodiscard]] Corners corners(std::int64_t steps, std::vector<Over> over,
+  using Axis = ToleranceQuestion::Axis;
+  [[nodiscard]] Corners corners(std::int64_t steps, std::vector<Axis> axes,
                                 std::vector<TableSelection::Slice> given = {}) const {
     return tolerance_frontier(
-        *results_, {.partition = 0, .steps = steps, .over = std::move(over), .given = std::move(given)});
+        *results_, {.partition = 0, .steps = steps, .axes = std::move(axes), .given = std::move(given)});
   }
 
  private:

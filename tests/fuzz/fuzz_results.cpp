@@ -13,12 +13,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   test::answers([&] {
     const ResultsReader results(file.path());
     const std::int64_t end = std::min<std::int64_t>(results.grid().cells(), 1000);
-    (void)results.stretch(0, end, [&](const CellBlock& block) { return results.members("/safe", block); });
-    (void)results.stretch(0, end,
-                          [&](const CellBlock& block) { return results.values("/collision_time", block); });
+    (void)results.read_run(0, end, [&](const CellBlock& block) { return results.members("/safe", block); });
+    (void)results.read_run(0, end,
+                           [&](const CellBlock& block) { return results.values("/collision_time", block); });
     for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-      (void)results.stretch(0, end,
-                            [&](const CellBlock& block) { return results.values("/delay", p, block); });
+      (void)results.read_run(0, end,
+                             [&](const CellBlock& block) { return results.values("/delay", p, block); });
       const PartitionSpec& partition = results.spec().coordination.partitions[p];
       if (results.spec().output.layers) (void)read_layer_lists(results.spec(), partition, results);
     }

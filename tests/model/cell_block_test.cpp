@@ -30,7 +30,7 @@ TEST(CellBlock, EveryStretchIsItsCellsInOrderInFewBlocks) {
     const UniformGrid grid = grid_of(counts);
     for (std::int64_t begin = 0; begin <= grid.cells(); ++begin) {
       for (std::int64_t end = begin; end <= grid.cells(); ++end) {
-        const std::vector<CellBlock> blocks = blocks_of_stretch(grid, begin, end);
+        const std::vector<CellBlock> blocks = blocks_of_run(grid, begin, end);
         EXPECT_LE(blocks.size(), 2 * grid.size() - 1);
         std::vector<std::int64_t> cells;
         for (const CellBlock& block : blocks) append_cells(grid, block, cells);

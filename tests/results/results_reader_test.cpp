@@ -163,7 +163,7 @@ TEST_F(Reader, AStretchIsTheCellsInTheirOrder) {
   const ResultsReader results(path_);
   for (const auto& [begin, end] : {std::pair<std::int64_t, std::int64_t>{0, 120}, {7, 113}, {5, 6}, {9, 9}}) {
     const auto delays =
-        results.stretch(begin, end, [&](const CellBlock& b) { return results.values("/delay", 0, b); });
+        results.read_run(begin, end, [&](const CellBlock& b) { return results.values("/delay", 0, b); });
     ASSERT_EQ(static_cast<std::int64_t>(delays.size()), end - begin);
     for (std::int64_t x = begin; x < end; ++x) {
       const std::int64_t value = sample::delay(0, static_cast<std::uint64_t>(x), ElementType::int16);

@@ -78,7 +78,7 @@ Explained explain_convention(const ExplainContext& context) {
   result.sentences = {
       fmt::format("With a convention (\"convention\": true) the agents would keep these actions here: {}; "
                   "agents that keep to it never need to coordinate.",
-                  listed_words(parts))};
+                  list_text(parts))};
   return result;
 }
 

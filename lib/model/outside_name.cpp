@@ -2,7 +2,7 @@
 
 namespace coordreq {
 
-const char* outside_word(Outside rule) {
+const char* outside_name(Outside rule) {
   switch (rule) {
     case Outside::unsafe:
       return "unsafe";
