@@ -217,7 +217,7 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
   json["center"] = centre_json(grid, cell);
   json["partition"] = results.partitions()[partition].name;
   add_delay(json, found.delay, found.is_lower_bound);
-  if (spec.ends_at_goal()) json["over"] = found.is_over;
+  if (spec.ends_at_goal()) json["over"] = found.is_terminal;
   json["way_out"] = found.path ? path_json(*found.path, RequirementKind::min_delay, spec) : Json();
   const bool is_in_k = found.delay >= 0;
   json["freedom"] = is_in_k ? freedom_json(found, results.partitions()[partition]) : Json();

@@ -157,7 +157,7 @@ enum class Fault : std::uint8_t { nothing, no_silence, empty };
 Fault fault_of(const Answers& answers, std::size_t partition) {
   if (answers.get<Invariance>().cells == 0) return Fault::empty;
   const std::vector<std::int64_t>& sizes = answers.get<PartitionLayers>().partitions[partition].sizes;
-  return sizes.size() > 1 && sizes[1] == answers.context.over_cells ? Fault::no_silence : Fault::nothing;
+  return sizes.size() > 1 && sizes[1] == answers.context.terminal_cells ? Fault::no_silence : Fault::nothing;
 }
 
 struct OutOfWork {};

@@ -298,7 +298,7 @@ class PassageSearch {
     };
     each([this](Place& place, int) {
       place.cell = place_of(place.cell);
-      place.is_kept = kept_.test(place.cell) && !(context_.over && context_.over->test(place.cell));
+      place.is_kept = kept_.test(place.cell) && !(context_.terminal && context_.terminal->test(place.cell));
     });
     for (Place& place : round_) {
       if (!place.is_kept) continue;

@@ -34,8 +34,8 @@ class Explainer {
     found.is_lower_bound = sets_.delays().is_lower_bound(cell);
     const bool is_bounded = sets_.delays().is_bounded(cell);
     if (is_bounded) found.path = counterexample(cell, state);
-    found.is_over = is_over(cell);
-    if (!found.is_over) {
+    found.is_terminal = is_terminal(cell);
+    if (!found.is_terminal) {
       add_others(cell, is_bounded, found);
       if (results_.spec().silence) found.silence = explain_silence(cell, state);
     }
@@ -75,7 +75,7 @@ class Explainer {
   [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const { return sets_.delays().at(cell); }
 
   /// A goal that ends the task is reached there.
-  [[nodiscard]] bool is_over(std::int64_t cell) {
+  [[nodiscard]] bool is_terminal(std::int64_t cell) {
     return results_.spec().ends_at_goal() && controller_.values(paths::kArrival, partition_)(cell) == 0;
   }
 
@@ -169,7 +169,7 @@ class Explainer {
         while (k <= most && delay_at(cell + k * step * grid.stride(i)) <= found.delay) ++k;
         if (k > most || k >= nearest) continue;
         const std::int64_t other = cell + k * step * grid.stride(i);
-        if (is_over(other)) continue;  // there nobody chooses anything
+        if (is_terminal(other)) continue;  // there nobody chooses anything
         const std::int64_t alone = choices(controller_.actions(partition_, other));
         if (alone >= found.alone) continue;
         nearest = k;

@@ -19,7 +19,7 @@ namespace coordreq {
 struct DelayExplanation {
   std::int32_t delay = 0;
   bool is_lower_bound = false;  ///< `max_delay` ended the iteration before
-  bool is_over = false;         ///< a goal that ends the task is reached there
+  bool is_terminal = false;     ///< a goal that ends the task is reached there
   /// A shortest way out of S on which each class picks from its projection of C(x) as long as that is in K
   /// (find_counterexample()); none where the delay has no known end.
   std::optional<ResultPath> path;

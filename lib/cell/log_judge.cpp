@@ -162,7 +162,7 @@ void LogJudge::take_actions(JudgedRow& row) {
 }
 
 /// A goal that ends the task is reached there: what follows does not matter.
-bool LogJudge::is_over(std::int64_t cell) {
+bool LogJudge::is_terminal(std::int64_t cell) {
   return results_.spec().ends_at_goal() && controller_.values(paths::kArrival, partition_)(cell) == 0;
 }
 
@@ -173,7 +173,7 @@ void LogJudge::judge_actions(JudgedRow& row) {
   const Index u = joint_input();
   row.is_reckless.assign(classes_.size(), std::nullopt);
   for (const std::int64_t cell : row.place.cells) {
-    if (watch_.delay(cell) < 0 || is_over(cell)) continue;
+    if (watch_.delay(cell) < 0 || is_terminal(cell)) continue;
     const ActionSets sets = controller_.actions(partition_, cell);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!actions_[c]) continue;

@@ -70,7 +70,7 @@ class LogJudge {
  private:
   [[nodiscard]] std::optional<JudgedRow> read(const JudgedRow* before);
   [[nodiscard]] bool is_next(const JudgedRow& row, const JudgedRow& before) const;
-  [[nodiscard]] bool is_over(std::int64_t cell);
+  [[nodiscard]] bool is_terminal(std::int64_t cell);
   void take_actions(JudgedRow& row);
   void judge_actions(JudgedRow& row);
   void judge_model(JudgedRow& row, const JudgedRow& next);

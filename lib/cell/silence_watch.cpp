@@ -75,15 +75,16 @@ bool SilenceWatch::leave(const LogPlace& place, Contact contact,
                          const std::vector<std::optional<std::int64_t>>& actions) {
   if (contact == Contact::yes) return false;
   for (std::size_t p = 0; p < left_.size(); ++p) {
-    const bool is_on_the_way = has_aim(p) && !has_arrived_;
-    if (left_[p] && is_on_the_way && !keeps(p, place, actions)) left_[p].reset();
+    const bool is_before_goal = has_aim(p) && !has_arrived_;
+    if (left_[p] && is_before_goal && !keeps(p, place, actions)) left_[p].reset();
   }
   return contact == Contact::no && countdown() == 0;
 }
 
 bool SilenceWatch::arrive(const LogPlace& place, Contact contact) {
-  const bool is_over = place.cells.empty() && !place.is_outside();  // all is safe there, and needs no contact
-  if (!countdown() || is_over) {
+  const bool is_terminal =
+      place.cells.empty() && !place.is_outside();  // all is safe there, and needs no contact
+  if (!countdown() || is_terminal) {
     begin(place);
     return false;
   }

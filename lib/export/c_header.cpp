@@ -150,7 +150,7 @@ class HeaderWriter {
     if (!results_.spec().ends_at_goal()) return;
     sink_("/* Whether the task is over. */\n");
     array("uint8_t", "entry_over", runs_.entries,
-          [](const ActionRuns::Entry& entry) { return entry.is_over ? "1" : "0"; });
+          [](const ActionRuns::Entry& entry) { return entry.is_terminal ? "1" : "0"; });
   }
 
   void write_entries(std::size_t k) const {

@@ -76,7 +76,7 @@ class RunFinder {
     for (std::int64_t cell = begin; cell < end; ++cell) {
       const auto place = static_cast<std::size_t>(cell - begin);
       ActionRuns::Entry entry;
-      entry.is_over = !arrivals.empty() && arrivals[place] == 0;
+      entry.is_terminal = !arrivals.empty() && arrivals[place] == 0;
       for (std::size_t k = 0; k < runs_.policies.size(); ++k) {
         entry.countdowns.push_back(triggers[k][place]);
         add_sets(controller_.actions(runs_.policies[k], partition_, cell, delays[k][place]),

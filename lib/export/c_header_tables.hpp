@@ -17,7 +17,7 @@ struct ActionRuns {
   struct Entry {
     std::vector<std::int32_t> countdowns;
     std::vector<std::vector<std::uint32_t>> sets;  ///< [policy][class]: number among ActionRuns::sets
-    bool is_over = false;                          ///< a goal that ends the task is reached there
+    bool is_terminal = false;                      ///< a goal that ends the task is reached there
     [[nodiscard]] auto operator<=>(const Entry&) const = default;
   };
   std::vector<AnswerPolicy> policies;   ///< those with a trigger; the first is that of the delays

@@ -42,7 +42,7 @@ T times(const T& a, const T& b) {
   return a * b;
 }
 template <class T>
-T over(const T& a, const T& b) {
+T quotient(const T& a, const T& b) {
   return a / b;
 }
 template <class T>
@@ -224,7 +224,7 @@ constexpr std::array kFunctions{
         exactly<times<Rational>>, none<Outcome::too_large>,
         {SeriesRule::product, nullptr}, kNowhere, kNever},
     NumberFunction{Operator::divide, "/", "", 2, 2,
-        divide_doubles, over<Interval>, over<RationalInterval>, over<Dual>,
+        divide_doubles, quotient<Interval>, quotient<RationalInterval>, quotient<Dual>,
         exact_quotient, quotient_constant,
         {SeriesRule::quotient, nullptr}, "division by {1}", kNever},
     NumberFunction{Operator::power, "^", "pow", 2, 2,
@@ -318,7 +318,7 @@ constexpr std::size_t place_of(Operator op) {
 [[maybe_unused]] constexpr bool is_complete(const NumberFunction& f) {
   const bool has_factor = f.series.rule == SeriesRule::chain || f.series.rule == SeriesRule::inverse_chain;
   return !f.spelling.empty() && f.fewest > 0 && f.most >= f.fewest && f.at_point != nullptr &&
-         f.over_interval != nullptr && f.over_rationals != nullptr && f.over_dual != nullptr &&
+         f.on_interval != nullptr && f.on_rationals != nullptr && f.on_dual != nullptr &&
          f.exactly != nullptr && f.rounded != nullptr && f.series.rule != SeriesRule::fixed &&
          (f.series.factor != nullptr) == has_factor && f.undefined != nullptr && f.half_turns != 0;
 }

@@ -128,7 +128,7 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
                                  const std::optional<RiskSpec>& risk, const Rational& period) {
   RequirementSpec requirement;
   requirement.name = object["name"].text();
-  requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
+  requirement.where = scope.expression(object["where"], ExpectedType::condition, Dependence::states);
   const std::string key = read_kind(scope, object, period, requirement);
   const RequirementTraits& kind = traits(requirement.kind);
   if (kind.needs == "sees") {

@@ -58,7 +58,7 @@ bool contains_word(std::string text, std::string_view word) {
 
 /// @pre unchecked: the schema knows the word
 GoalThen then_of(const std::string& word) {
-  for (const GoalThen then : {GoalThen::over, GoalThen::stay, GoalThen::come_back}) {
+  for (const GoalThen then : {GoalThen::dependence, GoalThen::stay, GoalThen::come_back}) {
     if (word == goal_then_name(then)) return then;
   }
   return GoalThen::safe;
@@ -67,7 +67,7 @@ GoalThen then_of(const std::string& word) {
 /// A condition alone, or with what comes after arrival.
 void read_goal(const Scope& scope, const Node& goal, ProblemSpec& spec) {
   const bool has_then = goal.is_object();
-  spec.goal = scope.expression(has_then ? goal["where"] : goal, ExpectedType::condition, Over::states);
+  spec.goal = scope.expression(has_then ? goal["where"] : goal, ExpectedType::condition, Dependence::states);
   if (has_then) spec.goal_then = then_of(goal["then"].text());
 }
 
@@ -82,7 +82,8 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   Rational period;
   const bool has_period = errors.attempt([&] { period = read_period(scope, root); });
   errors.attempt([&] { spec.dynamics = read_dynamics(scope, root, period, spec.states); });
-  errors.attempt([&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states); });
+  errors.attempt(
+      [&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Dependence::states); });
   errors.attempt([&] {
     if (root.has("goal")) read_goal(scope, root["goal"], spec);
   });
@@ -188,7 +189,7 @@ void check_new_name(const Node& name, const std::vector<std::string>& known, con
 
 std::string goal_then_name(GoalThen then) {
   switch (then) {
-    case GoalThen::over:
+    case GoalThen::dependence:
       return "over";
     case GoalThen::stay:
       return "stay";

@@ -294,12 +294,12 @@ Rational Scope::constant_expression(const Node& node) const {
   return value;
 }
 
-Program Scope::expression(const Node& node, ExpectedType expected, Over over) const {
+Program Scope::expression(const Node& node, ExpectedType expected, Dependence dependence) const {
   if (expected == ExpectedType::number) refuse_memories(node);
   Program program = definitions_.expand(link_text(node, expected));
-  check_dependence(program, over, node.pointer());
+  check_dependence(program, dependence, node.pointer());
   if (memories_.empty()) return program;
-  return seen_as(program, over == Over::states_and_inputs && !centres_ ? inputs_end_ : 0);
+  return seen_as(program, dependence == Dependence::states_and_inputs && !centres_ ? inputs_end_ : 0);
 }
 
 /// Only conditions may mention memories: other expressions say how states move or what agents prefer, and
@@ -346,17 +346,18 @@ Program Scope::link_text(const Node& node, ExpectedType expected) const {
   return link(node.text(), lookup, tables_for(node.pointer()), expected, node.pointer());
 }
 
-void Scope::check_dependence(const Program& program, Over over, const std::string& pointer) const {
+void Scope::check_dependence(const Program& program, Dependence dependence,
+                             const std::string& pointer) const {
   for (const std::uint32_t slot : program.variables()) {
     if (slot >= slot_names_.size()) continue;  // a memory's
     const std::string& name = slot_names_[slot];
     const NameKind kind = names_.find(name).value();
-    const bool is_allowed = over == Over::everything || kind == NameKind::state ||
-                            (over == Over::states_and_inputs && kind == NameKind::input);
+    const bool is_allowed = dependence == Dependence::everything || kind == NameKind::state ||
+                            (dependence == Dependence::states_and_inputs && kind == NameKind::input);
     if (is_allowed) continue;
     throw SpecError(fmt::format("expected an expression over {}, found the {} {}",
-                                over == Over::states ? "states" : "states and inputs", kind_in_words(kind),
-                                quote_text(name)),
+                                dependence == Dependence::states ? "states" : "states and inputs",
+                                kind_in_words(kind), quote_text(name)),
                     pointer);
   }
 }

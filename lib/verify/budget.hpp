@@ -25,12 +25,12 @@ class Budget {
  public:
   explicit Budget(Work all) : all_(all), left_(all) {}
 
-  [[nodiscard]] bool is_over() const { return to_share() <= 0; }
+  [[nodiscard]] bool is_spent() const { return to_share() <= 0; }
   [[nodiscard]] Work left() const { return std::max<Work>(left_, 0); }
   /// Work that one of `questions` questions may take; 0 once the budget is over.
   [[nodiscard]] Work share(std::int64_t questions) const {
-    return is_over() ? 0
-                     : std::clamp<Work>(to_share() / std::max<std::int64_t>(questions, 1), 1, most_of_one());
+    return is_spent() ? 0
+                      : std::clamp<Work>(to_share() / std::max<std::int64_t>(questions, 1), 1, most_of_one());
   }
   /// Work that an answer may take beyond its share, so that a block of so many questions takes no more than
   /// is kept back.

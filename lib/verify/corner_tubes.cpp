@@ -110,8 +110,8 @@ class CornerTubes {
   }
 
   [[nodiscard]] OwnTube tube_from(const TimedMap& map, const std::vector<const TimedPart::Ends*>& box) const {
-    const FloorOfLeast first = least_over_corners(map, box, false);
-    const FloorOfLeast last = least_over_corners(map, box, true);
+    const FloorOfLeast first = least_at_corners(map, box, false);
+    const FloorOfLeast last = least_at_corners(map, box, true);
     const auto range = [](std::int64_t low, std::int64_t high) {
       return IndexRange{saturate_index(low), saturate_index(high)};
     };
@@ -119,9 +119,9 @@ class CornerTubes {
   }
 
   /// floor of the least value in steps plus the reach of a cell; of all values negated if `upper`.
-  [[nodiscard]] FloorOfLeast least_over_corners(const TimedMap& map,
-                                                const std::vector<const TimedPart::Ends*>& box,
-                                                bool upper) const {
+  [[nodiscard]] FloorOfLeast least_at_corners(const TimedMap& map,
+                                              const std::vector<const TimedPart::Ends*>& box,
+                                              bool upper) const {
     std::vector<std::size_t> open;
     TimePolynomial fixed = {cell_reach(upper)};
     for (std::size_t j = 0; j < box.size(); ++j) {

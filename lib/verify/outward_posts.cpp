@@ -167,7 +167,7 @@ class OutwardPosts {
   /// @returns false if it is to be tried again
   bool settle(Open& open, const PostEffort& effort, Share share, PostProver& prover) {
     const Odometer choice(choices_.counts(), open.choice);
-    const bool over = share.most == 0;
+    const bool is_spent = share.most == 0;
     const std::vector<Claimed> all = claims_of(choice);
     std::vector<PostClaim> claims;
     std::vector<std::uint32_t> asked;
@@ -177,16 +177,16 @@ class OutwardPosts {
     }
     if (asked.empty()) return true;
     const std::vector<PostProof> proofs =
-        over ? std::vector<PostProof>(all.size(), {PostVerdict::open, "the budget ended"})
-             : prove(choice, claims, asked, open, effort, share, prover);
+        is_spent ? std::vector<PostProof>(all.size(), {PostVerdict::open, "the budget ended"})
+                 : prove(choice, claims, asked, open, effort, share, prover);
     bool settled = true;
     for (const std::uint32_t c : asked) {
-      if (proofs[c].verdict == PostVerdict::open && !over && !is_last_) {
+      if (proofs[c].verdict == PostVerdict::open && !is_spent && !is_last_) {
         settled = false;
         continue;
       }
       open.settle(c);
-      const bool is_cut_off = over || (proofs[c].verdict == PostVerdict::open && proofs[c].is_cut_off);
+      const bool is_cut_off = is_spent || (proofs[c].verdict == PostVerdict::open && proofs[c].is_cut_off);
       if (is_cut_off) left_open_ += static_cast<std::int64_t>(all[c].places.size());
       for (const std::int64_t place : all[c].places) note(all[c].claim.target, place, proofs[c]);
     }

@@ -41,16 +41,17 @@ struct BlindSight {
                  input_classes(answers.context.spec, answers.context.abstraction->inputs,
                                answers.context.spec.coordination.partitions[p]),
                  work.team),
-        projections(answers.get<GoingOn>().controller, grouping, work.team, answers.context.equal(), true),
+        projections(answers.get<NonterminalController>().controller, grouping, work.team,
+                    answers.context.equal(), true),
         fibres(fibres_of(answers.context.spec, answers.context.engine->grid(),
                          answers.context.spec.coordination.partitions[p])),
-        sources{projections, *answers.get<GoingOn>().controller.invariant, fibres},
+        sources{projections, *answers.get<NonterminalController>().controller.invariant, fibres},
         problem{sources,
                 *answers.context.hull,
                 answers.get<PartitionLayers>().partitions[p],
                 answers.context.spec.coordination.max_delay,
                 answers.context.tiles.has_value(),
-                answers.context.over_or_null()} {}
+                answers.context.terminal_or_null()} {}
   BlindSight(const BlindSight&) = delete;
   BlindSight& operator=(const BlindSight&) = delete;
   ~BlindSight() = default;

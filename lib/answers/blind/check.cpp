@@ -129,9 +129,9 @@ class BlindChecker : public CellChecker {
       compare_steps(context_, partition.delay, cell, partition.delays[cell.at()], expected);
       // In B_1 blind delay and countdown agree; which cells are in B_1 is checked later.
       const std::int32_t claimed = partition.claims.delay[cell.at()];
-      const bool is_out = claimed == 0 && expected >= 0 && !partition.classes.empty() && !cell.is_over();
+      const bool is_out = claimed == 0 && expected >= 0 && !partition.classes.empty() && !cell.is_terminal();
       compare_steps(context_, partition.countdown, cell, claimed, is_out ? 0 : expected);
-      if (cell.is_invariant() && !cell.is_over()) check_rows(cell, partition);
+      if (cell.is_invariant() && !cell.is_terminal()) check_rows(cell, partition);
     }
   }
 
@@ -207,7 +207,7 @@ class BlindCheck : public StepsCheck<BlindPartitionCheck> {
 
   /// Whether the file claims that the cell is in a goal that ends the task. It is in every B_k, and removes
   /// no action from its fibres.
-  [[nodiscard]] bool is_over(std::int64_t cell) const {
+  [[nodiscard]] bool is_terminal(std::int64_t cell) const {
     return context_.spec->ends_at_goal() && context_.claims->values("/arrival")[at(cell)] == 0;
   }
 
@@ -216,11 +216,11 @@ class BlindCheck : public StepsCheck<BlindPartitionCheck> {
     const std::int64_t cells = context_.grid->cells();
     std::vector<std::uint8_t> left(at(cells), 0);
     for (std::int64_t x = 0; x < cells; ++x)
-      left[at(x)] = partition.of_sight[at(x)] >= 1 && !is_over(x) ? 1 : 0;
+      left[at(x)] = partition.of_sight[at(x)] >= 1 && !is_terminal(x) ? 1 : 0;
     for (const BlindClass& one : partition.classes) leave_common(one, left);
     partition.first.add_checked(cells);
     for (std::int64_t x = 0; x < cells; ++x) {
-      if (is_over(x) || (left[at(x)] != 0) == (partition.claims.delay[at(x)] >= 1)) continue;
+      if (is_terminal(x) || (left[at(x)] != 0) == (partition.claims.delay[at(x)] >= 1)) continue;
       const char* const expected = left[at(x)] != 0 ? "" : "not ";
       note(partition.first, x, fmt::format("{}: expected {}in B_1", place_of(*context_.grid, x), expected));
     }
@@ -255,7 +255,7 @@ class BlindCheck : public StepsCheck<BlindPartitionCheck> {
                          std::vector<std::uint8_t>(at(rows * one.fibres), 0)};
     for (std::int64_t x = 0; x < context_.grid->cells(); ++x) {
       const std::int64_t k = std::min<std::int64_t>(partition.depth(x), rows);
-      if (k < 1 || is_over(x)) continue;
+      if (k < 1 || is_terminal(x)) continue;
       const std::int64_t fibre = one.fibre(x);
       common.is_met[at((k - 1) * one.fibres + fibre)] = 1;
       for (std::int64_t b = 0; b < bytes; ++b)

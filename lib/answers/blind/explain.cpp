@@ -71,7 +71,7 @@ class SightFinder {
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!has_silent_table(*context_.spec, *context_.partition, c)) continue;
       for (const std::int64_t other : fibre(c, cell)) {
-        if (other == cell || delay_(other) < 1 || is_over(other)) continue;
+        if (other == cell || delay_(other) < 1 || is_terminal(other)) continue;
         const std::vector<bool> actions = context_.projections(other)[c];
         const std::int64_t common = count_common(sets[c], actions);
         if (common == std::count(actions.begin(), actions.end(), true)) continue;  // any action serves there
@@ -85,7 +85,7 @@ class SightFinder {
 
  private:
   /// Whether a goal that ends the task is reached at the cell: then nobody chooses anything.
-  [[nodiscard]] bool is_over(std::int64_t cell) const {
+  [[nodiscard]] bool is_terminal(std::int64_t cell) const {
     return context_.spec->ends_at_goal() && context_.values(paths::kArrival)(cell) == 0;
   }
 

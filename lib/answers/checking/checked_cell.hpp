@@ -35,7 +35,7 @@ class CheckedCell {
 
   /// Whether the file claims that the cell is in a goal that ends the task. It counts as T, and nothing is
   /// asked of the cells that follow.
-  [[nodiscard]] bool is_over() const { return arrival_ != nullptr && (*arrival_)[at()] == 0; }
+  [[nodiscard]] bool is_terminal() const { return arrival_ != nullptr && (*arrival_)[at()] == 0; }
 
   /// C(x): [joint input] 1 or 0; all 0 outside K.
   [[nodiscard]] const std::vector<std::uint8_t>& admitted() const { return admitted_; }
@@ -56,7 +56,7 @@ class CheckedCell {
   /// input that a controller file does not list is not forbidden.
   [[nodiscard]] bool is_forbidden(std::int64_t u) { return allow_ && !allow_->holds(u); }
   /// Whether the tube under u is safe; true if only samples count.
-  [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
+  [[nodiscard]] bool is_tube_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
   /// min over y in f(x, u) of values[y]; `forever` if the post has left safely, `blocked` if there is none.
   /// @param values over all cells; minima are remembered by the address of the values
   /// @pre unchecked: for the same values the same `blocked` and `forever`.
@@ -68,7 +68,7 @@ class CheckedCell {
       memory_.assign(posts_.memory_size(), PostMinima::kNotKnown);
     }
     const std::int32_t value = posts_.least(u, values, blocked, forever, memory_);
-    return value != blocked && !is_way_safe(u) ? blocked : value;
+    return value != blocked && !is_tube_safe(u) ? blocked : value;
   }
 
  private:

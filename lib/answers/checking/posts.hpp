@@ -84,14 +84,14 @@ class PostMinima {
   [[nodiscard]] std::int32_t least_from(std::size_t i, std::int64_t cell, std::int64_t window,
                                         std::int64_t inner_box, const Value* values, std::int32_t forever,
                                         std::vector<std::int32_t>& memory) {
-    if (i != split_ || parts_ == 0) return least_over(i, cell, window, inner_box, values, forever, memory);
+    if (i != split_ || parts_ == 0) return find_least(i, cell, window, inner_box, values, forever, memory);
     std::int32_t& known = memory[static_cast<std::size_t>(boxes_ + window * inner_boxes_ + inner_box)];
-    if (known == kNotKnown) known = least_over(i, cell, window, inner_box, values, forever, memory);
+    if (known == kNotKnown) known = find_least(i, cell, window, inner_box, values, forever, memory);
     return known;
   }
 
   template <class Value>
-  [[nodiscard]] std::int32_t least_over(std::size_t i, std::int64_t cell, std::int64_t window,
+  [[nodiscard]] std::int32_t find_least(std::size_t i, std::int64_t cell, std::int64_t window,
                                         std::int64_t inner_box, const Value* values, std::int32_t forever,
                                         std::vector<std::int32_t>& memory) {
     const GridDimension& dimension = (*grid_)[i];

@@ -13,10 +13,10 @@ std::int32_t steps_outside(const CheckedCell& cell) {
 std::int32_t steps_by_definition(CheckedCell& cell, const ClassChoices& choices,
                                  const std::vector<std::int32_t>& steps,
                                  const std::optional<std::int32_t>& most, std::int32_t least) {
-  const bool is_over = cell.is_over();
-  bool any = is_over;
+  const bool is_terminal = cell.is_terminal();
+  bool any = is_terminal;
   std::int32_t worst = kUnbounded;
-  for (std::int64_t u = 0; !is_over && u < choices.joint_inputs() && worst > least; ++u) {
+  for (std::int64_t u = 0; !is_terminal && u < choices.joint_inputs() && worst > least; ++u) {
     if (!choices.has(u)) continue;
     any = true;
     const std::int32_t own = cell.is_forbidden(u) ? least : cell.least(u, steps, least);

@@ -25,9 +25,9 @@ class ConventionChecker : public CellChecker {
   ConventionChecker(const CheckContext& context, ConventionTallies& tallies);
 
   void check(CheckedCell& cell) override {
-    const bool is_on_the_way = progress_ && progress_->is_on_the_way(cell.at());
-    admitted_ = is_on_the_way ? progress_->of(cell) : cell.admitted();
-    if (cell.is_over()) std::ranges::fill(admitted_, std::uint8_t{0});  // nobody chooses anything
+    const bool is_before_goal = progress_ && progress_->is_before_goal(cell.at());
+    admitted_ = is_before_goal ? progress_->of(cell) : cell.admitted();
+    if (cell.is_terminal()) std::ranges::fill(admitted_, std::uint8_t{0});  // nobody chooses anything
     find(admitted_);
     check_freedom(cell);
     if (actions_.front() != nullptr) check_actions(cell);

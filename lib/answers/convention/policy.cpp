@@ -19,12 +19,12 @@ class ConventionPolicy : public CellPolicy {
  public:
   explicit ConventionPolicy(const PolicyContext& context)
       : joint_inputs_(context.posts->inputs().count()),
-        way_(context.spec->goal ? make_goal_policy(context) : nullptr) {}
+        goal_policy_(context.spec->goal ? make_goal_policy(context) : nullptr) {}
 
   bool holds(std::int64_t /*cell*/) override { return true; }
 
   const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
-    return way_ && way_->holds(cell) ? way_->together(cell, admissible) : admissible;
+    return goal_policy_ && goal_policy_->holds(cell) ? goal_policy_->together(cell, admissible) : admissible;
   }
 
   std::vector<Numbers> alone(std::int64_t /*cell*/, std::int32_t /*countdown*/, const Numbers& together,
@@ -43,7 +43,7 @@ class ConventionPolicy : public CellPolicy {
 
  private:
   std::int64_t joint_inputs_;
-  std::unique_ptr<CellPolicy> way_;
+  std::unique_ptr<CellPolicy> goal_policy_;
 };
 
 /// The actions that the convention leaves to each agent, which needs no coordination at all: on the way to a

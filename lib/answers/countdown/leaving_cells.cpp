@@ -47,7 +47,7 @@ class LeavingRows {
   LeavingRows(const Answers& answers, const Projections& projections, const SafeSides& sides,
               const LevelRows<Level>& levels)
       : context_(answers.context),
-        controller_(answers.get<GoingOn>().controller),
+        controller_(answers.get<NonterminalController>().controller),
         engine_(*context_.engine),
         projections_(projections),
         sides_(sides),
@@ -60,7 +60,7 @@ class LeavingRows {
   /// @param outward takes the cells, of those asked about, with the outward joint input in C(x)
   void take_out(const RowPlace& place, MutableRow row, MutableRow outward) {
     std::copy(row.begin(), row.end(), asked_.begin());
-    if (context_.over) remove(context_.over->row(place.row), asked_);
+    if (context_.terminal) remove(context_.terminal->row(place.row), asked_);
     const bool full = is_full(place.row);
     if (full) {
       std::copy(asked_.begin(), asked_.end(), outward.begin());
@@ -183,11 +183,12 @@ class LeavingRows {
 template <class Visit>
 void with_workers(const Answers& answers, const Projections& projections, const SafeSides& sides,
                   ThreadTeam& team, const Visit& visit) {
-  answers.get<GoingOn>().controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
-    std::deque<LeavingRows<Level>> workers;
-    for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
-    visit(workers);
-  });
+  answers.get<NonterminalController>().controller.levels->visit(
+      [&]<class Level>(const LevelRows<Level>& levels) {
+        std::deque<LeavingRows<Level>> workers;
+        for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
+        visit(workers);
+      });
 }
 
 /// The unbounded cells of a row. @pre rows are along one dimension
@@ -208,9 +209,9 @@ bool all_lead_ahead(const Answers& answers, const Projections& projections, cons
                     const SafeSides& sides, ThreadTeam& team, LeavingCounts& counts) {
   const AnalysisContext& context = answers.context;
   const RowEngine& engine = *context.engine;
-  const bool may_be_empty = answers.get<GoingOn>().controller.synthesis != Synthesis::maximal &&
+  const bool may_be_empty = answers.get<NonterminalController>().controller.synthesis != Synthesis::maximal &&
                             context.pairs.admissible() != nullptr;
-  if (context.over || may_be_empty || engine.along() != 1 || !sides.knows_ahead()) return false;
+  if (context.terminal || may_be_empty || engine.along() != 1 || !sides.knows_ahead()) return false;
   std::atomic<bool> all = true;
   LeavingCounts found;
   with_workers(answers, projections, sides, team, [&](auto& workers) {
@@ -294,18 +295,18 @@ LeavingCounts count_leaving_cells(const Answers& answers, const Projections& pro
     take_out_leaving(answers, projections, sides, team, cells, outward, counts);
     // Where no joint input leaves, or nothing is left, there is nothing to spread.
     const std::int64_t found = sum_of_all(engine.share(), counts.cells);
-    if (found > 0 && found < unbounded - context.over_cells)
+    if (found > 0 && found < unbounded - context.terminal_cells)
       counts.cells += take_out_runs(context, sides, all, outward, team, cells);
   }
   for (std::int64_t* number : {&counts.cells, &counts.rows_near, &counts.rows_read})
     *number = sum_of_all(engine.share(), *number);
-  if (counts.cells == 0 || counts.cells == unbounded - context.over_cells) return counts;
+  if (counts.cells == 0 || counts.cells == unbounded - context.terminal_cells) return counts;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
     return std::make_unique<IndependentActions<Level>>(projections, invariant, team.size(),
                                                        IndependentActions<Level>::Tells::whether);
   };
-  const LevelProblem problem{.spared = context.over_or_null(),
+  const LevelProblem problem{.spared = context.terminal_or_null(),
                              .equal = projections.equal_work(),
                              .limit = 1,
                              .make8 = [&] { return make(std::uint8_t{}); },

@@ -94,11 +94,11 @@ std::int64_t take_out_runs(const AnalysisContext& context, const SafeSides& side
           place.advance(engine.grid());
         }
         if (target.row == OutwardCells::kNone) continue;
-        const ConstRow all_there = all.row(target.row), left_there = before.row(target.row);
+        const ConstRow all_row = all.row(target.row), left_row = before.row(target.row);
         for (std::size_t w = 0; w < row.size(); ++w) {
           if ((row[w] & may[w]) == 0) continue;
           const Word out = shifted_word(static_cast<std::int64_t>(w), target.offset, std::ssize(row),
-                                        [&](std::size_t k) { return all_there[k] & ~left_there[k]; });
+                                        [&](std::size_t k) { return all_row[k] & ~left_row[k]; });
           const Word found = out & row[w] & may[w];
           row[w] &= ~found;
           taken[at(worker)] += std::popcount(found);

@@ -124,8 +124,8 @@ PathPhase PathChecker::phase_of(std::size_t step) const {
   const std::int32_t arrival = progress_->arrival(cell_.at());
   if (step == 0 && arrival == kUnbounded) return PathPhase::together;
   const PathPhase before = step == 0 ? PathPhase::approaching : path_->phase[step - 1];
-  const bool is_over = before == PathPhase::approaching && arrival == 0 && !goal_;
-  return is_over ? PathPhase::independent : before;
+  const bool is_terminal = before == PathPhase::approaching && arrival == 0 && !goal_;
+  return is_terminal ? PathPhase::independent : before;
 }
 
 void PathChecker::check_together(std::size_t step, std::int64_t u) {
@@ -205,7 +205,7 @@ bool PathChecker::ends_without_rule(std::size_t cell) {
 
 void PathChecker::check_next(std::size_t step, std::int64_t u) {
   if (cell_.is_forbidden(u)) return differs(step, "continues with a joint input that is forbidden");
-  if (is_blocked(u) || !cell_.is_way_safe(u))
+  if (is_blocked(u) || !cell_.is_tube_safe(u))
     return differs(step, "continues although no transition is safe");
   if (!is_in_post(u, static_cast<std::int64_t>(path_->cell[step + 1])))
     differs(step, "the next cell is not in the successor set");
@@ -227,7 +227,7 @@ void PathChecker::check_last_step(std::int64_t u) {
   }
   if (path_->end >= PathEnd::arrived) return;  // the post has left through a `goal` side
   if (path_->end == PathEnd::unsafe_between_samples) {
-    if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the motion to the next sample is safe");
+    if (is_blocked(u) || cell_.is_tube_safe(u)) differs(step, "the motion to the next sample is safe");
   } else if (path_->end != PathEnd::left_domain || !path_->left_side) {
     wrong(step, "the last action leads nowhere, but the end is another");
   } else if (!leaves_domain(u, *path_->left_side)) {
@@ -275,8 +275,8 @@ bool PathChecker::ends_in_sight(std::size_t cell) const {
 
 void PathChecker::check_goal_end() {
   const bool stays = path_->samples() > path_->steps();
-  const bool on_the_way = !path_->phase.empty() && path_->phase.back() >= PathPhase::together;
-  if (!progress_ || !on_the_way)
+  const bool before_goal = !path_->phase.empty() && path_->phase.back() >= PathPhase::together;
+  if (!progress_ || !before_goal)
     return wrong(path_->samples(), "an end of a path to the goal, which it is not");
   const auto last = path_->cell.end() - 1;
   if (path_->end == PathEnd::arrived && stays && progress_->arrival(*last) != 0)

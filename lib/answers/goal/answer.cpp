@@ -29,7 +29,7 @@ void add_then(const ProblemSpec& spec, const LongestReturns& returns, Json& goal
   goal["then"] = goal_then_name(spec.goal_then);
   if (spec.goal_then != GoalThen::come_back) return;
   goal["longest_return"] = returns.forced ? Json(*returns.forced) : Json();
-  goal["longest_gap"] = returns.any_way ? Json(*returns.any_way) : Json();
+  goal["longest_gap"] = returns.any_choice ? Json(*returns.any_choice) : Json();
 }
 
 void find_arrival(Answers& answers, const StageWork& work) {
@@ -39,10 +39,11 @@ void find_arrival(Answers& answers, const StageWork& work) {
   goal.engine = std::make_unique<ProgressEngine>(context);
   const RowShare* const share = context.shared_rows();
   const CellSet safe =
-      context.over ? *context.over
-                   : part_of(cells_that_satisfy(*context.spec.goal, context.spec, context.abstraction->grid,
-                                                context.abstraction->inputs, work.team, share),
-                             context.safe, true, share);
+      context.terminal
+          ? *context.terminal
+          : part_of(cells_that_satisfy(*context.spec.goal, context.spec, context.abstraction->grid,
+                                       context.abstraction->inputs, work.team, share),
+                    context.safe, true, share);
   goal.cells = part_of(safe, *controller.invariant, true, share);
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
@@ -58,14 +59,14 @@ void find_arrival(Answers& answers, const StageWork& work) {
   goal.longest = longest_arrival(goal.nearness, work.team);
   goal.sizes = {context.count(goal.cells), context.count(goal.winning), context.count(safe)};
   if (context.spec.is_goal_lasting()) {
-    goal.away = goal.winning;
+    goal.outside_goal = goal.winning;
     goal.bounds = progress_bounds(lasting, goal.nearness, then);
   } else {
-    goal.away = part_of(goal.winning, goal.cells, false, share);
+    goal.outside_goal = part_of(goal.winning, goal.cells, false, share);
   }
   if (then == GoalThen::come_back) goal.returns = find_longest_returns(lasting, goal.nearness, work.team);
   goal.progress = Controller{.engine = &engine,
-                             .invariant = &goal.away,
+                             .invariant = &goal.outside_goal,
                              .levels = &goal.nearness,
                              .synthesis = controller.synthesis,
                              .approaches = true,
@@ -82,7 +83,7 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   const ApproachSets sets{.progress = goal.engine.get(),
                           .nearness = &goal.nearness,
                           .goal = is_lasting ? nullptr : &goal.cells,
-                          .away = &goal.away,
+                          .outside_goal = &goal.outside_goal,
                           .bounds = goal.progress.bounds};
   const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
     work.enter_part("projections");
@@ -157,7 +158,7 @@ Warnings advise_on_goal(const Answers& answers) {
                           goal->sizes.safe == 1 ? "one is" : grouped(goal->sizes.safe) + " are");
     return {{"goal", "/goal",
              fmt::format("no cell of the {} set is in the goal on this grid: it cannot be forced{}",
-                         answers.context.over ? "safe" : "invariance", hint)}};
+                         answers.context.terminal ? "safe" : "invariance", hint)}};
   }
   if (goal->longest.value_or(0) > 0) return {};
   const bool is_closed = answers.context.spec.abstraction.cells == Cells::closed;
@@ -205,11 +206,12 @@ std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, 
     return result;
   }
   // In cells where the task is over no convention is needed.
-  const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
+  const CellSet& nonterminal = *answers.get<NonterminalController>().controller.invariant;
   const bool is_lasting = answers.context.spec.is_goal_lasting();
   result->rest = is_in_goal_only && is_lasting ? CellSet(goal->cells.rows(), goal->cells.row_length())
-                 : is_in_goal_only             ? goal->cells
-                                   : part_of(going_on, goal->away, false, answers.context.shared_rows());
+                 : is_in_goal_only
+                     ? goal->cells
+                     : part_of(nonterminal, goal->outside_goal, false, answers.context.shared_rows());
   everywhere.whole = everywhere.invariant;
   everywhere.invariant = &result->rest;
   result->parts.push_back({everywhere, &*answers.context.hull});

@@ -18,9 +18,9 @@ namespace coordreq {
 /// section 5); of a lasting goal the same by section 11.
 struct Goal {
   std::unique_ptr<ProgressEngine> engine;
-  CellSet cells;    ///< G
-  CellSet winning;  ///< W
-  CellSet away;     ///< W \ G; of a lasting goal W: where P holds
+  CellSet cells;         ///< G
+  CellSet winning;       ///< W
+  CellSet outside_goal;  ///< W \ G; of a lasting goal W: where P holds
   struct Sizes {
     std::int64_t cells = 0;    ///< |G|
     std::int64_t winning = 0;  ///< |W|

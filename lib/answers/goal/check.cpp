@@ -96,7 +96,7 @@ class GoalChecker : public CellChecker {
     progress_.assign(cell.admitted().size(), 0);
     if (!cell.is_invariant()) return;
     if (arrival == 0) progress_ = cell.admitted();
-    if (by_definition_.is_on_the_way(cell.at())) progress_ = by_definition_.of(cell);
+    if (by_definition_.is_before_goal(cell.at())) progress_ = by_definition_.of(cell);
   }
 
   /// Checks arrivals, approach delays and their triggers by their local equations: the equation of arrival
@@ -156,7 +156,7 @@ class GoalChecker : public CellChecker {
     const auto at_most = [&most](std::int32_t steps) { return most ? std::min(steps, *most) : steps; };
     if (arrival == kUnbounded) return kOutsideWinning;
     if (arrival == 0 && lasting_ == nullptr)
-      return at_most(cell.is_over() ? kUnbounded : partition.safety[cell.at()]);
+      return at_most(cell.is_terminal() ? kUnbounded : partition.safety[cell.at()]);
     const std::int32_t limit = by_definition_.limit(cell);
     for (std::int64_t u = 0; u < choices.joint_inputs(); ++u) {
       if (choices.has(u) && (cell.is_forbidden(u) || by_definition_.worst(cell, u) > limit)) return 0;

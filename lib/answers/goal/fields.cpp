@@ -63,10 +63,10 @@ Field arrival_field(const ProblemSpec& spec) {
                             {"longest_arrival", std::int64_t{0}, true}} +
                         longest_attributes(spec),
           .display = {.column = "arrival",
-                    .compared = words.compared,
-                    .less_is_better = true,
-                    .query = {.name = "arrival", .words = words.compared},
-                    .map = {.kind = "arrival", .title = words.title}}};
+                      .compared = words.compared,
+                      .less_is_better = true,
+                      .query = {.name = "arrival", .words = words.compared},
+                      .map = {.kind = "arrival", .title = words.title}}};
 }
 
 void add_approach(Fields& fields, const ProblemSpec& spec) {
@@ -193,7 +193,7 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
   if (spec.goal_then == GoalThen::come_back) {
     std::map<std::string, AttributeValue>& attributes = values.entries[paths::kArrival].attributes;
     attributes["longest_return"] = std::int64_t{goal->returns.forced.value_or(-1)};
-    attributes["longest_gap"] = std::int64_t{goal->returns.any_way.value_or(-1)};
+    attributes["longest_gap"] = std::int64_t{goal->returns.any_choice.value_or(-1)};
   }
   const LayersOfPartitions layers = pointers_to(goal->approach);
   fill_steps(answers, layers, paths::kApproachDelay, paths::kApproachTrigger, values,

@@ -263,7 +263,7 @@ LongestReturns find_longest_returns(const LastingProblem& problem, const LevelMa
   const RowEngine& engine = problem.progress->engine();
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const CellSet visits = nearness.top_cells(team);  // G and W
-  std::vector<std::int32_t> forced(static_cast<std::size_t>(team.size()), 0), any_way = forced;
+  std::vector<std::int32_t> forced(static_cast<std::size_t>(team.size()), 0), any_choice = forced;
   nearness.visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::vector<WorstChoices<Level>> choices(static_cast<std::size_t>(team.size()),
                                              WorstChoices<Level>(grouping));
@@ -278,8 +278,9 @@ LongestReturns find_longest_returns(const LastingProblem& problem, const LevelMa
                     if (problem.synthesis == Synthesis::given) return;
                     std::vector<Level> least;
                     choices[w].find(place, posts, cells, least);
-                    for_each_bit(
-                        cells, [&](std::int64_t x) { take(any_way[w], least[static_cast<std::size_t>(x)]); });
+                    for_each_bit(cells, [&](std::int64_t x) {
+                      take(any_choice[w], least[static_cast<std::size_t>(x)]);
+                    });
                   });
   });
   const auto of_all = [&](const std::vector<std::int32_t>& longest) -> std::optional<std::int32_t> {
@@ -289,7 +290,7 @@ LongestReturns find_longest_returns(const LastingProblem& problem, const LevelMa
     return all == 0 ? std::nullopt : std::optional(all);
   };
   LongestReturns result{of_all(forced), {}};
-  result.any_way = problem.synthesis == Synthesis::given ? result.forced : of_all(any_way);
+  result.any_choice = problem.synthesis == Synthesis::given ? result.forced : of_all(any_choice);
   return result;
 }
 

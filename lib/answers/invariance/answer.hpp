@@ -11,7 +11,7 @@ namespace coordreq {
 
 /// The cells of K in which the task goes on, and C there: all of K but the cells of a goal that ends the
 /// task, where agents choose nothing. Code that asks for the choices of agents asks for them in these cells.
-struct GoingOn {
+struct NonterminalController {
   CellSet cells;  ///< K \ G; not used, and empty, where no goal ends the task
   Controller controller;
 };

@@ -38,7 +38,7 @@ class SetChecker : public CellChecker {
       check_outside(cell);
     } else if (!cell.is_invariant()) {
       check_escape(cell);
-    } else if (cell.is_over()) {  // the check of the goal checks that it is
+    } else if (cell.is_terminal()) {  // the check of the goal checks that it is
       tallies_.invariant.add_checked(1);
       check_collision_time(cell, kUnbounded);
     } else {

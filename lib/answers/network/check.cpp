@@ -68,7 +68,7 @@ class NetworkChecker : public CellChecker {
       tally_.add_checked(1);
       if (!cell.is_invariant()) {
         if (claimed) complain(mode, "safe, but not in K");
-      } else if (cell.is_over()) {
+      } else if (cell.is_terminal()) {
         if (!claimed) complain(mode, "not safe, but the task is over");
       } else if (network_.spec.resynthesise) {
         if (claimed && !can_take_care(mode))

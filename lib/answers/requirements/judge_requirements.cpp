@@ -189,7 +189,7 @@ class Judge {
               return is_invariant(x) && !winning.test(x);
             }),
             {.choices = PathPhase::approaching,
-             .holds = is_in(goal.away),
+             .holds = is_in(goal.outside_goal),
              .steps = steps_from(asked_.layers->layers_of)},
             independent_phase(problem, delay),
             evasive_phase(problem)};

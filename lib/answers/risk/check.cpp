@@ -217,7 +217,7 @@ class RiskChecker : public CellChecker {
         tally_.complain(cell, mode, "a risk that is no probability");
       } else if (!cell.is_invariant()) {
         if (claimed != 1) tally_.complain(cell, mode, fmt::format("risk {:.3g} outside K", claimed));
-      } else if (cell.is_over()) {
+      } else if (cell.is_terminal()) {
         if (claimed != 0)
           tally_.complain(cell, mode, fmt::format("risk {:.3g}, but the task is over", claimed));
       } else {
@@ -275,7 +275,7 @@ class RiskCheck : public AnswerCheck {
       std::vector<std::vector<double>> next = risks;
       const std::vector<Ranked> after = rank_all(claims_.outgoing, risks);
       for_each_cell(team, [&](CheckedCell& cell, RiskStep& step) {
-        if (!cell.is_invariant() || cell.is_over()) return;
+        if (!cell.is_invariant() || cell.is_terminal()) return;
         step.go_to(cell);
         for (std::size_t mode = 0; mode < next.size(); ++mode)
           next[mode][cell.at()] = step.risk(mode, after[mode]);

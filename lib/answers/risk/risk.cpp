@@ -20,7 +20,7 @@ class RiskIteration {
       : problem_(problem),
         engine_(*problem.network.controller->engine),
         invariant_(*problem.network.invariant),
-        going_on_(*problem.network.controller->invariant),
+        nonterminal_(*problem.network.controller->invariant),
         watch_(watch),
         team_(team),
         choices_(problem.network, problem.is_safest ? Agreement::safest : Agreement::none, team) {
@@ -73,7 +73,7 @@ class RiskIteration {
     const std::vector<std::uint8_t>& met = expected.changed(number);
     // The first step visits all rows: those whose posts meet no row may still have forbidden joint inputs.
     const PendingRows rows = pending_rows(
-        problem_.network, going_on_, state_.steps == 0,
+        problem_.network, nonterminal_, state_.steps == 0,
         [&](std::int64_t row) { return met[static_cast<std::size_t>(row)] != 0; }, team_);
     const auto n = static_cast<std::size_t>(engine_.row_length());
     const std::vector<std::uint32_t> certain(n + kLevelBlock, kCertain<std::uint32_t>);
@@ -89,11 +89,11 @@ class RiskIteration {
   void compare(std::size_t mode, const ExpectedLevels<std::uint64_t>& expected,
                ModeSweep<std::uint64_t>& sweep, std::vector<double>& rates) const {
     const auto all = [](std::int64_t) { return true; };
-    const PendingRows rows = pending_rows(problem_.network, going_on_, true, all, team_);
+    const PendingRows rows = pending_rows(problem_.network, nonterminal_, true, all, team_);
     const auto raise = [&](std::int64_t row, const std::uint64_t* next, int w) {
       double& rate = rates[static_cast<std::size_t>(w)];
       const std::uint32_t* const present = state_.risks[mode].row(row);
-      for_each_bit(going_on_.row(row), [&](std::int64_t x) {
+      for_each_bit(nonterminal_.row(row), [&](std::int64_t x) {
         rate = std::max(rate, outward::add_up(risk_of(next[x]), -double{risk_of(present[x])}));
       });
     };
@@ -110,7 +110,7 @@ class RiskIteration {
   const RiskProblem& problem_;
   const RowEngine& engine_;
   const CellSet& invariant_;
-  const CellSet& going_on_;  ///< the cells whose posts are looked at
+  const CellSet& nonterminal_;  ///< the cells whose posts are looked at
   const RiskWatch& watch_;
   ThreadTeam& team_;
   ModeChoices choices_;

@@ -38,9 +38,9 @@ Silence& silence_in(Answers& answers) {
 
 /// The cells of a set in which the task goes on: all but those of a goal that ends it. @param part storage
 /// for them
-const CellSet& going_on(const AnalysisContext& context, const CellSet& set, CellSet& part) {
-  if (!context.over) return set;
-  part = part_of(set, *context.over, false, context.shared_rows());
+const CellSet& nonterminal_cells(const AnalysisContext& context, const CellSet& set, CellSet& part) {
+  if (!context.terminal) return set;
+  part = part_of(set, *context.terminal, false, context.shared_rows());
   return part;
 }
 
@@ -54,10 +54,10 @@ void find_set(Answers& answers, const StageWork& work) {
     work.enter_part("projections");
     CellSet part;
     const SilentActions actions(answers, {context.spec.silence->then, "then"}, agents_alone(context.spec),
-                                going_on(context, context.safe, part), work.team);
+                                nonterminal_cells(context, context.safe, part), work.team);
     work.enter_part("");
     return find_layer_levels(*context.engine, *context.hull, context.safe, actions.projections, {},
-                             std::nullopt, watch, work.team, silence.counts, context.over_or_null());
+                             std::nullopt, watch, work.team, silence.counts, context.terminal_or_null());
   });
   silence.set = silence.lost.top_cells(work.team);
   silence.cells = context.count(silence.set);
@@ -79,7 +79,7 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   SilencePartition& partition = silence_in(answers).partitions[p];
   const CellSet& set = silence_set(answers);
   CellSet part;
-  const CellSet& asked = going_on(context, set, part);
+  const CellSet& asked = nonterminal_cells(context, set, part);
   const auto classes =
       all_have_rules(*spec.silence) ? agents_alone(spec) : coordination.partitions[p].classes;
   const AgentRules rules{spec.silence->actions, "actions"};
@@ -89,7 +89,7 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
     work.enter_part("");
     partition.without_action = sums(context, actions);
     return find_layer_levels(*context.engine, *context.hull, set, actions.projections, {},
-                             coordination.max_delay, watch, work.team, counts, context.over_or_null());
+                             coordination.max_delay, watch, work.team, counts, context.terminal_or_null());
   };
   find_layers(context, *context.engine, set, work, partition.layers, find);
   // Kept levels do not have these counts.

@@ -50,7 +50,7 @@ struct SetOfSilence {
 
 /// Whether all actions of `then` keep a cell in a set, or the task ends in the cell. @param set [cell] 0 or 1
 bool stays(CheckedCell& cell, ClassChoices& then, const std::vector<std::uint8_t>& set) {
-  if (cell.is_over()) return true;
+  if (cell.is_terminal()) return true;
   then.go_to(cell.number(), cell.admitted());
   const std::vector<std::int64_t> choices = then.joint();
   return !choices.empty() && std::ranges::all_of(choices, [&](std::int64_t u) {

@@ -81,7 +81,7 @@ SilentActions::SilentActions(const Answers& answers, const AgentRules& rules, co
       without_action(rules.conditions.size()),
       grouping(*answers.context.engine, inputs_of(answers.context, classes),
                sources_of(answers.context, tables), team),
-      projections(answers.get<GoingOn>().controller, grouping, team,
+      projections(answers.get<NonterminalController>().controller, grouping, team,
                   rules_of(rules, classes, tables, grouping.sources().size(), cells, without_action)) {}
 
 double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {
