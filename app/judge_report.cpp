@@ -129,9 +129,9 @@ Json JudgeSummary::row_json(const JudgedRow& row) const {
   }
   json["cell"] = row.place.location.cell < 0 ? Json() : Json(row.place.location.cell);
   json["delay"] = delay_json(row.delay);
-  json["delay_status"] = delay_word(row.delay);
+  json["delay_status"] = delay_label(row.delay);
   json["countdown"] = row.countdown ? delay_json(*row.countdown) : Json();
-  json["countdown_status"] = row.countdown ? delay_word(*row.countdown) : "none";
+  json["countdown_status"] = row.countdown ? delay_label(*row.countdown) : "none";
   return json;
 }
 

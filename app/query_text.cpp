@@ -59,7 +59,8 @@ class AnswerText {
     facts.emplace_back("leaves the safe set", collision_text(answer_["collision_time"]));
     for (const Field* const field : form_.numbers) {
       if (!QueryForm::is_of_partitions(*field))
-        facts.emplace_back(field->display.query.words, value_text(*field, answer_, field->display.query.name));
+        facts.emplace_back(field->display.query.label,
+                           value_text(*field, answer_, field->display.query.name));
     }
     facts.emplace_back("guarantee", guarantee_of_file(text_of(answer_["guarantee"]), form_.spec()));
     return facts_text(facts);
@@ -152,13 +153,13 @@ class AnswerText {
       for (const auto& [key, path] : {std::pair("delay", policy.delay), {"countdown", policy.trigger}}) {
         if (path.empty()) continue;
         const Field& field = form_.results.field(path);
-        facts.emplace_back("  " + field.display.query.words, value_text(field, entry, key));
+        facts.emplace_back("  " + field.display.query.label, value_text(field, entry, key));
       }
       add_classes(policy, entry["classes"], facts);
     }
     for (const Field* const field : form_.numbers) {
       if (QueryForm::is_of_partitions(*field))
-        facts.emplace_back("  " + field->display.query.words,
+        facts.emplace_back("  " + field->display.query.label,
                            value_text(*field, partition, field->display.query.name));
     }
     const std::string best = best_text(p);
@@ -170,7 +171,7 @@ class AnswerText {
   void add_classes(const AnswerPolicy& policy, const Json& classes, Facts& facts) const {
     for (const Json& entry : classes) {
       if (policy.name.empty() || policy.is_by_agent || !entry["actions"].empty())
-        facts.emplace_back("  " + policy.words + " of " + text_of(entry["name"]), class_text(entry));
+        facts.emplace_back("  " + policy.label + " of " + text_of(entry["name"]), class_text(entry));
     }
   }
 
@@ -237,7 +238,7 @@ class AnswerText {
         text += "\n" + first + query.heading + "\n";
       }
       if (begins) is_told = true;
-      if (is_told) facts.emplace_back("  " + query.words, section_text(field, entry, is_told));
+      if (is_told) facts.emplace_back("  " + query.label, section_text(field, entry, is_told));
     }
     return facts.empty() ? text : text + facts_text(facts);
   }

@@ -43,7 +43,7 @@ std::string value_words(const Field& field, const Json& of, const std::string& k
   if (status == "at_least") return "at least " + steps_text(of[key]);
   if (status != "steps") return status_words(field, status);
   return of[key] == 0 && field.display.query.meanings.contains("0") ? status_words(field, "0")
-                                                                  : steps_text(of[key]);
+                                                                    : steps_text(of[key]);
 }
 
 }  // namespace coordreq

@@ -10,7 +10,7 @@
 #include "app/interrupt.hpp"
 #include "base/json.hpp"
 #include "spec/read_spec.hpp"
-#include "spec/spec_place.hpp"
+#include "spec/spec_location.hpp"
 
 namespace coordreq {
 namespace {

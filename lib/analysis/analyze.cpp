@@ -101,7 +101,7 @@ class ExchangeMeter {
 void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpoint, const RankMemory& memory,
                   ExchangeMeter& meter, ThreadTeam& team) {
   const StageWork work{.team = team,
-                       .part = [&reporter](const std::string& part) { reporter.enter_part(part); },
+                       .substage = [&reporter](const std::string& part) { reporter.enter_part(part); },
                        .step = [&reporter](const WaveStep& step,
                                            std::int64_t row_length) { reporter.step(step, row_length); }};
   bool is_checked = false;
@@ -122,7 +122,7 @@ void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpo
 void write(const std::string& path, const Answers& answers, StageReporter& reporter, ThreadTeam& team) {
   reporter.enter("writing");
   reporter.enter_part("lists");
-  FieldValues values = found_values(answers, team);
+  FieldValues values = computed_values(answers, team);
   reporter.watch_writing(answers.context.spec, values);
   reporter.set_temporary(true);
   std::optional<RankChunks> ranks;

@@ -105,12 +105,12 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
   FullestRank fullest;
   double most = 0;
   for (const RankRows& rows : rows_of_ranks(answers.context, ranks)) {
-    const double needed = need({.held = static_cast<double>(rows.own + rows.ghosts) / all,
-                                .own = static_cast<double>(rows.own) / all,
+    const double needed = need({.held = static_cast<double>(rows.owned + rows.ghosts) / all,
+                                .own = static_cast<double>(rows.owned) / all,
                                 .slices = rows.slices});
     if (needed <= most) continue;
     most = needed;
-    fullest = {.own_rows = rows.own, .ghost_rows = rows.ghosts};
+    fullest = {.own_rows = rows.owned, .ghost_rows = rows.ghosts};
   }
   check(most, limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
   fullest.memory_bytes = to_bytes(most);

@@ -77,8 +77,8 @@ TubeSets AnalysisContext::tubes() const {
 }
 
 std::int64_t AnalysisContext::count(const CellSet& set) const {
-  const RowShare::Range own = own_rows(shared_rows(), set.rows());
-  return sum_of_all(shared_rows(), set.count(own.begin, own.end));
+  const RowShare::Range local = own_rows(shared_rows(), set.rows());
+  return sum_of_all(shared_rows(), set.count(local.begin, local.end));
 }
 
 std::optional<RowSymmetry> AnalysisContext::symmetry(const std::vector<InputClass>& classes) const {
@@ -89,8 +89,9 @@ std::optional<RowSymmetry> AnalysisContext::symmetry(const std::vector<InputClas
   // Tiles of many rows are computed as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
   const bool is_any_in_tile =
-      tiles && tiles->rows() > 1 &&
-      std::ranges::any_of(dimensions, [&](const auto& own) { return std::ranges::any_of(own, is_in_tile); });
+      tiles && tiles->rows() > 1 && std::ranges::any_of(dimensions, [&](const auto& indices) {
+        return std::ranges::any_of(indices, is_in_tile);
+      });
   if (is_any_in_tile) return std::nullopt;
   return RowSymmetry(abstraction->grid, dimensions);
 }

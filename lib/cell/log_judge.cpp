@@ -50,8 +50,8 @@ const char* finding_name(LogFinding finding) {
 
 std::optional<bool> JudgedRow::found(LogFinding finding) const {
   const bool has_cell = !place.cells.empty();
-  const auto judged_if = [](bool is_judged, bool is_found) {
-    return is_judged ? std::optional(is_found) : std::nullopt;
+  const auto judged_if = [](bool is_judged, bool is_computed) {
+    return is_judged ? std::optional(is_computed) : std::nullopt;
   };
   switch (finding) {
     case LogFinding::outside:

@@ -34,8 +34,8 @@ struct StateAnswer {
   }
 };
 
-/// The fields of the file that are shown as FieldQuery says, in the order of the answers, without the steps of
-/// policies.
+/// The fields of the file that are shown as FieldQuery says, in the order of the answers, without the steps
+/// of policies.
 [[nodiscard]] std::vector<const Field*> asked_fields(const ResultsReader& results);
 
 /// Answers questions about states. Not thread-safe.

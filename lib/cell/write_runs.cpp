@@ -182,7 +182,7 @@ class RunFields {
     std::vector<FieldFlag> meanings = flags_of(results_.field(aim.path));
     meanings.insert(meanings.begin(), no_sample);
     add_list<std::int32_t>(aim.path, ElementType::int32,
-                           described(aim.path.substr(1) + " of the cell: " + aim.words) +
+                           described(aim.path.substr(1) + " of the cell: " + aim.label) +
                                std::vector<FieldAttribute>{flags(std::move(meanings))},
                            of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.arrival; }));
   }

@@ -190,8 +190,8 @@ class Projections::Builder {
 
   void join_masks() {
     joined_masks_.clear();
-    for (const std::vector<Word>& own : masks_)
-      joined_masks_.insert(joined_masks_.end(), own.begin(), own.end());
+    for (const std::vector<Word>& mask : masks_)
+      joined_masks_.insert(joined_masks_.end(), mask.begin(), mask.end());
   }
 
   void fill_masks(std::size_t c, ConstRow invariant) {

@@ -175,7 +175,7 @@ class HeaderWriter {
     for (const FieldFlag& flag : flags_of(results_.field(policy.countdown()))) {
       const bool is_known = std::any_of(known.begin(), known.end(),
                                         [&flag](const FieldFlag& own) { return own.value == flag.value; });
-      if (!is_known) text += fmt::format("#define $M_{} ({})\n", upper_case(flag.word), flag.value);
+      if (!is_known) text += fmt::format("#define $M_{} ({})\n", upper_case(flag.meaning), flag.value);
     }
     return text;
   }

@@ -119,7 +119,8 @@ std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector
                                  const ReportLimits& limits) {
   std::vector<const Field*> drawn;
   for (const Field& field : answer_fields(results.spec())) {
-    if (!field.display.map.kind.empty() && results.has(field.path)) drawn.push_back(&results.field(field.path));
+    if (!field.display.map.kind.empty() && results.has(field.path))
+      drawn.push_back(&results.field(field.path));
   }
   const auto others = std::stable_partition(
       drawn.begin(), drawn.end(), [](const Field* field) { return field->axes.front() == "/partition"; });

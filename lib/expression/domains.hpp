@@ -7,7 +7,7 @@
 #include "numeric/rational_interval.hpp"
 #include "numeric/truth.hpp"
 
-// The operations that Evaluator<T> asks for, for the three number types that ship.
+// The operations that Evaluator<T> needs, for the three number types that ship.
 namespace coordreq {
 
 /// Plain double arithmetic, for simulation and pictures; no guarantee. NaN where undefined, also for a

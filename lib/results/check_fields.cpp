@@ -79,7 +79,7 @@ class FieldChecker {
   /// By what the spec says is counted, bytes are told apart.
   void check_count(const Field& field, const FieldAttribute& attribute) const {
     const auto* const expected = std::get_if<std::uint64_t>(&attribute.value);
-    if (expected == nullptr || attribute.is_found) return;
+    if (expected == nullptr || attribute.is_computed) return;
     const std::int64_t found = file_.integer(field.path, attribute.name);
     if (found == static_cast<std::int64_t>(*expected)) return;
     fail(fmt::format("the attribute {} is {}, expected {}", attribute.name, found, *expected), field);

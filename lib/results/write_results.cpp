@@ -53,7 +53,7 @@ class AttributeWriter {
     std::string words;
     for (const FieldFlag& flag : flags) {
       values.push_back(flag.value == kLargestValue ? largest_value(type_) : flag.value);
-      words += (words.empty() ? "" : " ") + flag.word;
+      words += (words.empty() ? "" : " ") + flag.meaning;
     }
     hdf5::set_attribute(object_, "flag_values", type_, values);
     hdf5::set_attribute(object_, "flag_meanings", words);
@@ -173,8 +173,8 @@ class FieldsWriter {
                                const FieldValues::Entry* entry) {
     AttributeWriter writer(dataset, type);
     for (const FieldAttribute& attribute : field.attributes) {
-      const bool is_found = attribute.is_found && entry != nullptr;
-      writer.write(attribute.name, is_found ? entry->attributes.at(attribute.name) : attribute.value);
+      const bool is_computed = attribute.is_computed && entry != nullptr;
+      writer.write(attribute.name, is_computed ? entry->attributes.at(attribute.name) : attribute.value);
     }
   }
 

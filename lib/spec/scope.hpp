@@ -83,7 +83,7 @@ class Scope {
   std::string time_unit_;     ///< as written; empty if none was given
   std::vector<bool> is_box_;  ///< [slot] of the spec's own states: not discrete
   std::uint32_t inputs_end_ = 0;
-  bool centres_ = false;  ///< memories are asked of the centres of cells
+  bool centres_ = false;  ///< memories are evaluated at the centres of cells
   std::vector<std::string> slot_names_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::map<std::string, Rational, std::less<>> constants_;

@@ -67,8 +67,8 @@ class RangeFinder {
   [[nodiscard]] bool keeps(int trend) const {
     const std::vector<TubeStep>& steps = flow_.steps();
     return std::all_of(steps.begin(), steps.end(), [&](const TubeStep& step) {
-      const int trend = direction(step.change[state_]);
-      return trend == 0 || trend == trend;
+      const int sign = direction(step.change[state_]);
+      return sign == 0 || sign == trend;
     });
   }
 

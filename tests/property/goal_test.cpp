@@ -74,9 +74,9 @@ std::vector<std::int32_t> approach_delays(const FastAnalysis& fast, const Goal& 
 
 /// P of all joint inputs, with C in the goal.
 std::vector<std::vector<bool>> progress(const FastAnalysis& fast, ThreadTeam& team) {
-  const std::unique_ptr<const ControllerParts> parts = controller_parts(*fast.answers, true);
+  const std::unique_ptr<const PiecewiseController> pieces = piecewise_controller(*fast.answers, true);
   std::vector<std::vector<bool>> result;
-  for (const PartialController& part : parts->parts) {
+  for (const PartialController& part : pieces->pieces) {
     const ActionGrouping grouping(*part.controller.engine, {whole_class(fast.abstraction.inputs)}, team);
     const auto bytes = static_cast<std::size_t>(grouping[0].bytes());
     const auto actions = static_cast<std::size_t>(grouping[0].actions());

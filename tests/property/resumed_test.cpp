@@ -160,7 +160,7 @@ TEST(Resumed, SilenceIsTheSameFromAnyStep) {
     const FastAnalysis fast(spec, team);
     const CellSet& set = silence_set(*fast.answers);
     const CellSet* const terminal = fast.answers->context.terminal_or_null();
-    const CellSet nonterminal = terminal == nullptr ? set : part_of(set, *terminal, false, nullptr);
+    const CellSet nonterminal = terminal == nullptr ? set : subset_of(set, *terminal, false, nullptr);
     bool goes_on = false;
     for (std::size_t p = 0; p < fast.layers.size(); ++p) {
       const SilentActions actions(*fast.answers, {spec.silence->actions, "actions"},

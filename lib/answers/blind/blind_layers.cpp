@@ -23,8 +23,8 @@ LevelMap first_levels(const BlindProblem& problem, const CellSet* common) {
   return problem.layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& layers) {
     auto levels = engine.make_levels<Level>(engine.posts(), problem.interned);
     std::vector<Level> cells(at(levels.row_length()) + kLevelBlock / sizeof(Level));
-    const RowShare::Range own = own_rows(engine.share(), levels.rows());
-    for (std::int64_t r = own.begin; r < own.end; ++r) {
+    const RowShare::Range local = own_rows(engine.share(), levels.rows());
+    for (std::int64_t r = local.begin; r < local.end; ++r) {
       std::copy_n(layers.row(r), layers.row_length(), cells.begin());
       if (common != nullptr) {
         for_each_bit(problem.sources.invariant.row(r), [&](std::int64_t x) {

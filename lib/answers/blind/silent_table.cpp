@@ -11,8 +11,8 @@
 namespace coordreq {
 namespace {
 
-void raise(std::uint8_t& place, std::uint8_t value) {
-  std::atomic_ref<std::uint8_t> shared(place);
+void raise(std::uint8_t& depth, std::uint8_t value) {
+  std::atomic_ref<std::uint8_t> shared(depth);
   std::uint8_t old = shared.load(std::memory_order_relaxed);
   while (old < value && !shared.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
   }

@@ -54,9 +54,9 @@ std::optional<std::int64_t> best_level(const DelayLayers& layers) {
 template <class Level>
 const Level* find_level(const Level* begin, const Level* end, std::int64_t level) {
   if constexpr (sizeof(Level) == 1) {
-    const void* const found =
+    const void* const match =
         std::memchr(begin, static_cast<int>(level), static_cast<std::size_t>(end - begin));
-    return found == nullptr ? end : static_cast<const Level*>(found);
+    return match == nullptr ? end : static_cast<const Level*>(match);
   } else {
     return std::find(begin, end, static_cast<Level>(level));
   }
@@ -156,11 +156,11 @@ std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const 
     touched.inside = touched.sides.back();
     touched.sides.pop_back();
   }
-  std::vector<GridSide> found;
+  std::vector<GridSide> result;
   for (std::size_t s = 0; touched.inside == 0 && s < touched.sides.size(); ++s) {
-    if (touched.sides[s] > 0) found.push_back({s / 2, s % 2 == 1});
+    if (touched.sides[s] > 0) result.push_back({s / 2, s % 2 == 1});
   }
-  return found;
+  return result;
 }
 
 }  // namespace coordreq

@@ -52,8 +52,8 @@ struct DelayLayers {
 ///
 /// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is a subset of this
 /// one's, so that the worst choice is no worse. The wave begins at the least of their levels.
-/// @param base Z_0: K, or another set that the choices are asked to stay in
-/// @param projections of C where the task goes on
+/// @param base Z_0: K, or another set that the choices have to stay in
+/// @param projections of C in nonterminal cells
 /// @param terminal G of a goal that ends it, which is in every layer; null: there is none
 /// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
 [[nodiscard]] LevelMap find_layer_levels(const RowEngine& engine, const RowHull& hull, const CellSet& base,

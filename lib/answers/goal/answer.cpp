@@ -41,10 +41,10 @@ void find_arrival(Answers& answers, const StageWork& work) {
   const CellSet safe =
       context.terminal
           ? *context.terminal
-          : part_of(cells_that_satisfy(*context.spec.goal, context.spec, context.abstraction->grid,
-                                       context.abstraction->inputs, work.team, share),
-                    context.safe, true, share);
-  goal.cells = part_of(safe, *controller.invariant, true, share);
+          : subset_of(cells_that_satisfy(*context.spec.goal, context.spec, context.abstraction->grid,
+                                         context.abstraction->inputs, work.team, share),
+                      context.safe, true, share);
+  goal.cells = subset_of(safe, *controller.invariant, true, share);
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
   const GoalThen then = context.spec.goal_then;
@@ -62,7 +62,7 @@ void find_arrival(Answers& answers, const StageWork& work) {
     goal.outside_goal = goal.winning;
     goal.bounds = progress_bounds(lasting, goal.nearness, then);
   } else {
-    goal.outside_goal = part_of(goal.winning, goal.cells, false, share);
+    goal.outside_goal = subset_of(goal.winning, goal.cells, false, share);
   }
   if (then == GoalThen::come_back) goal.returns = find_longest_returns(lasting, goal.nearness, work.team);
   goal.progress = Controller{.engine = &engine,
@@ -86,12 +86,12 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
                           .outside_goal = &goal.outside_goal,
                           .bounds = goal.progress.bounds};
   const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
-    work.enter_part("projections");
+    work.enter_substage("projections");
     const PartitionSpec& partition = spec.coordination.partitions[p];
     const ActionGrouping grouping(engine, input_classes(spec, answers.context.abstraction->inputs, partition),
                                   work.team);
     const Projections projections(goal.progress, grouping, work.team);
-    work.enter_part("");
+    work.enter_substage("");
     return find_approach_levels(sets, projections, layers, spec.coordination.max_delay, watch, work.team,
                                 counts);
   };
@@ -197,12 +197,13 @@ MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
 
 }  // namespace
 
-std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, bool is_in_goal_only) {
-  auto result = std::make_unique<ControllerParts>();
+std::unique_ptr<const PiecewiseController> piecewise_controller(const Answers& answers,
+                                                                bool is_in_goal_only) {
+  auto result = std::make_unique<PiecewiseController>();
   Controller everywhere = answers.get<Controller>();
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr) {
-    result->parts.push_back({everywhere, &*answers.context.hull});
+    result->pieces.push_back({everywhere, &*answers.context.hull});
     return result;
   }
   // In cells where the task is over no convention is needed.
@@ -211,11 +212,11 @@ std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, 
   result->rest = is_in_goal_only && is_lasting ? CellSet(goal->cells.rows(), goal->cells.row_length())
                  : is_in_goal_only
                      ? goal->cells
-                     : part_of(nonterminal, goal->outside_goal, false, answers.context.shared_rows());
+                     : subset_of(nonterminal, goal->outside_goal, false, answers.context.shared_rows());
   everywhere.whole = everywhere.invariant;
   everywhere.invariant = &result->rest;
-  result->parts.push_back({everywhere, &*answers.context.hull});
-  result->parts.push_back({goal->progress, &goal->engine->hull()});
+  result->pieces.push_back({everywhere, &*answers.context.hull});
+  result->pieces.push_back({goal->progress, &goal->engine->hull()});
   return result;
 }
 

@@ -43,13 +43,13 @@ struct PartialController {
   const RowHull* hull = nullptr;
 };
 /// The controllers and sets to which a PartialController refers, beside the answers.
-struct ControllerParts {
+struct PiecewiseController {
   CellSet rest;  ///< the cells of K where C holds
-  std::vector<PartialController> parts;
+  std::vector<PartialController> pieces;
 };
 /// @param is_in_goal_only whether C holds in G alone, and not in all of K outside W \ G
-[[nodiscard]] std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers,
-                                                                      bool is_in_goal_only);
+[[nodiscard]] std::unique_ptr<const PiecewiseController> piecewise_controller(const Answers& answers,
+                                                                              bool is_in_goal_only);
 
 extern const Answer goal_answer;
 

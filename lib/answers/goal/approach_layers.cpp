@@ -13,7 +13,7 @@
 namespace coordreq {
 namespace {
 
-/// The cells of `outside_goal` where every choice of IND_P comes nearer to the goal, as P asks.
+/// The cells of `outside_goal` where every choice of IND_P comes nearer to the goal, as P requires.
 CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, ThreadTeam& team) {
   const RowEngine& engine = sets.progress->engine();
   CellSet result(engine.rows(), engine.row_length());
@@ -82,14 +82,15 @@ LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const De
     std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
     const RowShare::Range rows = own_rows(engine.share(), levels.rows());
     for (std::int64_t r = rows.begin; r < rows.end; ++r) {
-      const Level* const own = safe.row(r);
+      const Level* const safe_row = safe.row(r);
       std::fill(cells.begin(), cells.end(), Level{0});
       for_each_bit(sets.outside_goal->row(r),
                    [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
       for_each_bit(nearing.row(r),
                    [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = LevelRows<Level>::kTop; });
       if (sets.goal != nullptr)
-        for_each_bit(sets.goal->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = own[x]; });
+        for_each_bit(sets.goal->row(r),
+                     [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = safe_row[x]; });
       levels.put(r, cells.data());
     }
     if (engine.share() != nullptr) {
@@ -117,7 +118,7 @@ LevelMap find_approach_levels(const ApproachSets& sets, const Projections& proje
   LevelMap start;
   WaveWatch inner_watch = watch;
   if (inner_watch.resumed == nullptr) {
-    // Levels above the limit count as kTop, so that nothing is asked of W itself.
+    // Levels above the limit count as kTop, so that nothing is required of W itself.
     const bool is_w_all = sets.goal == nullptr && max_delay == 0;
     start = first_levels(sets, is_w_all ? *sets.outside_goal : nearing, layers);
     inner_watch.resumed = &start;

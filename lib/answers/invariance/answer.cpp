@@ -20,18 +20,18 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   const LevelBounds bounds{&context.safe, context.engine->grid().points() + 1};
   const std::optional<RowSymmetry> symmetry = context.symmetry(single_classes(context.abstraction->inputs));
   find_or_take_levels(work, *context.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
-    Invariance found =
+    Invariance invariance =
         find_invariance(*context.engine, *context.hull, context.safe, synthesis, watch, work.team,
                         context.equal(symmetry ? &*symmetry : nullptr), context.terminal_or_null());
-    result.counts = found.counts;
-    return std::move(found.collision_time);
+    result.counts = invariance.counts;
+    return std::move(invariance.collision_time);
   });
   follow_from_collision_times(result, work.team);
   const Controller& controller =
       answers.add(Controller{&*context.engine, &result.invariant, &result.collision_time, synthesis});
   NonterminalController& nonterminal = answers.add(NonterminalController{{}, controller});
   if (!context.terminal) return;
-  nonterminal.cells = part_of(result.invariant, *context.terminal, false, context.shared_rows());
+  nonterminal.cells = subset_of(result.invariant, *context.terminal, false, context.shared_rows());
   nonterminal.controller.invariant = &nonterminal.cells;
   nonterminal.controller.whole = &result.invariant;
 }

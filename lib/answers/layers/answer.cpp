@@ -43,9 +43,9 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   std::optional<PartitionActions> actions;
   const auto projections = [&]() -> const Projections& {
     if (!actions) {
-      work.enter_part("projections");
+      work.enter_substage("projections");
       actions.emplace(answers, p, work.team);
-      work.enter_part("");
+      work.enter_substage("");
     }
     return actions->projections;
   };
@@ -63,7 +63,7 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   layers.leaving.emplace();
   if (layers.sizes.back() == context.terminal_cells) return;
   const Projections& silent = projections();
-  work.enter_part("safe sides");
+  work.enter_substage("safe sides");
   layers.leaving = count_leaving_cells(
       answers, silent, layers,
       {.step =
@@ -82,7 +82,7 @@ std::int64_t cells_bound_to_connect(const AnalysisContext& context, const DelayL
   return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
 }
 
-/// The largest delay times the period, over the cells in which the task goes on; null if a delay is unbounded
+/// The largest delay times the period, over the nonterminal cells; null if a delay is unbounded
 /// or there are no such cells.
 Json longest_delay(const AnalysisContext& context, const DelayLayers& layers) {
   const std::int64_t fixed_point = layers.truncated ? context.terminal_cells : layers.sizes.back();

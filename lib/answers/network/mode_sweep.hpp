@@ -90,7 +90,7 @@ class ModeSweep {
     step_ = {.sweep = counts_.sweeps, .visited = count, .rows = pending.alive};
   }
 
-  /// Reports the last sweep. @param state [mode] from which work can be taken up; none: it cannot
+  /// Reports the last sweep. @param state [mode] from which work can be resumed; none: it cannot
   template <class State>
   void report(const std::function<void(const WaveStep&)>& watch, std::span<const State> state) const {
     if (!watch) return;
@@ -127,8 +127,8 @@ class ModeSweep {
     // Beyond the row there are no cells.
     std::fill(worker.old.begin() + static_cast<std::ptrdiff_t>(n), worker.old.end(), Level{0});
     const RowPlace place(engine_.grid(), row);
-    const bool is_found = op.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w);
-    const Level* const both[] = {worker.old.data(), is_found ? worker.next.data() : worker.old.data()};
+    const bool is_computed = op.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w);
+    const Level* const both[] = {worker.old.data(), is_computed ? worker.next.data() : worker.old.data()};
     kernels().minimum(both, 2, worker.next.data(), n);
   }
 

@@ -35,12 +35,12 @@ class RiskIteration {
     while (state_.steps < problem_.horizon) {
       if (!expected.update(state_.risks, changed, team_)) break;
       for (std::size_t mode = 0; mode < modes(); ++mode) {
-        if (mode > 0) tell(sweep, 0);
+        if (mode > 0) report(sweep, 0);
         changed[mode].assign(static_cast<std::size_t>(engine_.rows()), 0);
         step(mode, expected, sweep, changed[mode]);
       }
       ++state_.steps;
-      tell(sweep, modes());
+      report(sweep, modes());
     }
     return {.risks = {}, .rate = 0, .counts = sweep.counts()};
   }
@@ -70,11 +70,11 @@ class RiskIteration {
   void step(std::size_t mode, const ExpectedLevels<std::uint32_t>& expected, ModeSweep<std::uint32_t>& sweep,
             std::vector<std::uint8_t>& changed) {
     const std::size_t number = problem_.expected->of_mode[mode];
-    const std::vector<std::uint8_t>& met = expected.changed(number);
+    const std::vector<std::uint8_t>& meets_changes = expected.changed(number);
     // The first step visits all rows: those whose posts meet no row may still have forbidden joint inputs.
     const PendingRows rows = pending_rows(
         problem_.network, nonterminal_, state_.steps == 0,
-        [&](std::int64_t row) { return met[static_cast<std::size_t>(row)] != 0; }, team_);
+        [&](std::int64_t row) { return meets_changes[static_cast<std::size_t>(row)] != 0; }, team_);
     const auto n = static_cast<std::size_t>(engine_.row_length());
     const std::vector<std::uint32_t> certain(n + kLevelBlock, kCertain<std::uint32_t>);
     sweep.run(mode, expected.of(number), rows, invariant_, [&](std::int64_t row, std::uint32_t* next, int) {
@@ -101,7 +101,7 @@ class RiskIteration {
   }
 
   /// Reports a step of a mode; with the state of all modes after a whole one.
-  void tell(const ModeSweep<std::uint32_t>& sweep, std::size_t modes) const {
+  void report(const ModeSweep<std::uint32_t>& sweep, std::size_t modes) const {
     if (!watch_.step) return;
     sweep.report([this](const WaveStep& step) { watch_.step(step, state_.steps); },
                  std::span<const RiskRows>(state_.risks).first(modes));

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "answers/checking/steps_check.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
@@ -89,7 +89,7 @@ class SilenceChecker : public CellChecker {
     if (set_.members[cell.at()] == 0) return;
     if (is_member && stays(cell, *then_, set_.members)) return;
     set_.tally.add_wrong(cell.number(),
-                         [&] { return cell.place() + ": the fallback rule does not keep it there"; });
+                         [&] { return cell.location() + ": the fallback rule does not keep it there"; });
   }
 
   const CheckContext& context_;
@@ -146,7 +146,7 @@ class SilenceCheck : public StepsCheck<PartitionOfSilence> {
         set_.tally.add_unproven();
       } else {
         set_.tally.add_wrong(x, [&] {
-          return place_of(*context_.grid, x) + ": expected in the set, the fallback rule keeps it";
+          return location_of(*context_.grid, x) + ": expected in the set, the fallback rule keeps it";
         });
       }
     }
