@@ -60,7 +60,7 @@ std::string connection_text(const Json& partition, const Json& summary) {
 /// From where agents that act alone by a policy gain by it.
 void add_layers(const AnswerPolicy& policy, const Json& entry, Facts& facts) {
   const Json& layers = entry["layers"];
-  facts.emplace_back("  " + policy.words, shortened(layers.get<std::vector<std::int64_t>>()));
+  facts.emplace_back("  " + policy.label, shortened(layers.get<std::vector<std::int64_t>>()));
   const std::string for_ever = entry["truncated"] ? "an unknown number" : cells(entry["fixed_point"]);
   facts.emplace_back("  " + policy.gain, fmt::format("for one step from {}, indefinitely from {}",
                                                      cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/field_parts.hpp"
-#include "answers/one_cell/action_words.hpp"
+#include "answers/one_cell/action_text.hpp"
 #include "answers/requirements/answer.hpp"
 #include "answers/step_codes.hpp"
 #include "app/query_report.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 void add_delay(Json& json, std::int32_t delay, bool is_lower_bound) {
   json["delay"] = delay_json(delay);
-  json["delay_status"] = is_lower_bound ? "at_least" : delay_word(delay);
+  json["delay_status"] = is_lower_bound ? "at_least" : delay_label(delay);
 }
 
 Json centre_json(const UniformGrid& grid, std::int64_t cell) {
@@ -80,7 +80,7 @@ Json silence_json(const DelayExplanation::Silence& found, std::size_t partition,
         {{"name", results.partitions()[partition].classes[c]},
          {"permitted", permitted},
          {"total", actions.size()},
-         {"actions", permitted == 0 ? Json() : Json(action_words(spec, agents, actions))}});
+         {"actions", permitted == 0 ? Json() : Json(action_text(spec, agents, actions))}});
   }
   Json& path = json["way_out"] = Json();
   if (!found.path) return json;
@@ -218,14 +218,14 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
   json["center"] = centre_json(grid, cell);
   json["partition"] = results.partitions()[partition].name;
   add_delay(json, found.delay, found.is_lower_bound);
-  if (spec.ends_at_goal()) json["over"] = found.is_over;
+  if (spec.ends_at_goal()) json["over"] = found.is_terminal;
   json["way_out"] = found.path ? path_json(*found.path, RequirementKind::min_delay, spec) : Json();
   const bool is_in_k = found.delay >= 0;
   json["freedom"] = is_in_k ? freedom_json(found, results.partitions()[partition]) : Json();
   json["remedies"] = Json::array();
   for (const DelayExplanation::Remedy& remedy : found.remedies)
     json["remedies"].push_back(remedy_json(remedy, partition, results));
-  for (const Explained& explained : found.others) json[explained.key] = *explained.found;
+  for (const Explained& explained : found.others) json[explained.key] = *explained.json;
   if (found.silence) json["silence"] = silence_json(*found.silence, partition, results);
   json["freer_is_shorter"] = Json();
   if (const auto& other = found.freer_is_shorter) {

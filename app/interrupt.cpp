@@ -7,7 +7,7 @@
 #include <csignal>
 #include <string_view>
 
-#include "analysis/checkpoint_parts.hpp"
+#include "analysis/checkpoint_segments.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
@@ -60,7 +60,7 @@ void install_interrupt_handlers() {
 
 void note_checkpoint(const std::string& file, bool is_folder) {
   static NotedCheckpoint checkpoint;
-  checkpoint.file = is_folder ? CheckpointParts::manifest(file) : file;
+  checkpoint.file = is_folder ? CheckpointSegments::manifest(file) : file;
   checkpoint.saved = fmt::format("; --resume continues from the checkpoint ({})", printable(file));
   checkpoint.not_saved =
       fmt::format("; no checkpoint had been saved, see --checkpoint-every ({})", printable(file));

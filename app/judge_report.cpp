@@ -121,17 +121,17 @@ Json JudgeSummary::row_json(const JudgedRow& row) const {
   if (row.log.time) json["t"] = nearest_double(*row.log.time);
   json["state"] = Json::object();
   for (std::size_t i = 0; i < spec.states.size(); ++i)
-    json["state"][spec.states[i].name] = nearest_double(row.place.state[i]);
+    json["state"][spec.states[i].name] = nearest_double(row.position.state[i]);
   json["inputs"] = Json::object();
   for (std::size_t i = 0; i < spec.inputs.size(); ++i) {
     const std::optional<Rational>& value = row.log.inputs[i];
     json["inputs"][spec.inputs[i].name] = value ? Json(nearest_double(*value)) : Json();
   }
-  json["cell"] = row.place.location.cell < 0 ? Json() : Json(row.place.location.cell);
+  json["cell"] = row.position.location.cell < 0 ? Json() : Json(row.position.location.cell);
   json["delay"] = delay_json(row.delay);
-  json["delay_status"] = delay_word(row.delay);
+  json["delay_status"] = delay_label(row.delay);
   json["countdown"] = row.countdown ? delay_json(*row.countdown) : Json();
-  json["countdown_status"] = row.countdown ? delay_word(*row.countdown) : "none";
+  json["countdown_status"] = row.countdown ? delay_label(*row.countdown) : "none";
   return json;
 }
 
@@ -211,9 +211,9 @@ std::string judged_csv_header(const ResultsReader& results, std::size_t partitio
 std::string judged_csv_line(const JudgedRow& row) {
   std::string line = std::to_string(row.number) + ",";
   if (row.log.time) line += number(*row.log.time);
-  for (const Rational& value : row.place.state) line += "," + number(value);
-  line += "," + (row.place.location.cell < 0 ? "" : std::to_string(row.place.location.cell));
-  line += "," + (row.place.cells.empty() ? "" : csv_steps(row.delay));
+  for (const Rational& value : row.position.state) line += "," + number(value);
+  line += "," + (row.position.location.cell < 0 ? "" : std::to_string(row.position.location.cell));
+  line += "," + (row.position.cells.empty() ? "" : csv_steps(row.delay));
   line += "," + (row.countdown ? csv_steps(*row.countdown) : "");
   for (const LogFinding finding : kAllLogFindings) {
     if (finding != LogFinding::reckless) line += "," + flag(row.found(finding));

@@ -85,7 +85,7 @@ SpecSource load_source(const std::string& path, std::optional<std::uint64_t> mem
 
 ProblemSpec read_with_settings(const SpecSource& source, const std::vector<SpecSetting>& settings) {
   WrittenSpec written{source.text, settings, {}};
-  ProblemSpec spec = with_places(written, [&] { return read_spec(with_settings(source, settings)); });
+  ProblemSpec spec = with_locations(written, [&] { return read_spec(with_settings(source, settings)); });
   if (settings.empty()) return spec;
   written.tables = written_spec(spec).tables;
   spec.written = std::make_shared<const WrittenSpec>(std::move(written));

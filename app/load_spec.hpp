@@ -9,7 +9,7 @@
 #include "app/options.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/set_value.hpp"
-#include "spec/spec_place.hpp"
+#include "spec/spec_location.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -32,7 +32,7 @@ void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 /// Runs `work` on a spec and returns its result. @throws SpecError with the location in the text as written
 template <class Work>
 auto with_places_in(const ProblemSpec& spec, const Work& work) {
-  return with_places(written_spec(spec), work);
+  return with_locations(written_spec(spec), work);
 }
 
 /// The spec at `path`, as the settings make it, checked.

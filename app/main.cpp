@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Else each thread takes memory from a heap of its own, and what one gives back the others cannot use: three
+/// Else each thread takes memory from a separate heap, and what one gives back the others cannot use: three
 /// vehicles took a third to a half more with sixteen threads than with two.
 void share_heaps() {
 #if defined(M_ARENA_MAX)

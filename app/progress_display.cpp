@@ -20,7 +20,7 @@ constexpr std::size_t kShortestBar = 8;
 constexpr std::size_t kLongestBar = 28;
 
 std::string label(const Progress& progress) {
-  return printable(progress.part.empty() ? progress.stage : progress.stage + ", " + progress.part);
+  return printable(progress.substage.empty() ? progress.stage : progress.stage + ", " + progress.substage);
 }
 
 /// "[########------------] " of so many columns, the blank included.
@@ -56,7 +56,7 @@ std::string bar_text(const Progress& progress, const TimeLeft& time_left, std::s
 
 }  // namespace
 
-// Work that is over within the first pause shows nothing of the bar at all.
+// Work that ends within the first pause shows nothing of the bar at all.
 ProgressDisplay::ProgressDisplay(const ProgressOptions& options, bool quiet)
     : mode_(options.mode), begin_(Clock::now()), stage_begin_(begin_) {
   if (mode_ == ProgressMode::automatic) mode_ = quiet ? ProgressMode::none : ProgressMode::bar;
@@ -84,7 +84,7 @@ void ProgressDisplay::update(const Progress& progress) {
     end_stage();
     stage_ = progress.stage;
     stage_begin_ = Clock::now();
-    // A bar that is shown names each stage, also those that take less than a pause.
+    // A visible bar names each stage, also those that take less than a pause.
     if (mode_ == ProgressMode::bar && stage_begin_ - begin_ > kPauseOfBar) next_ = stage_begin_;
   }
   time_left_.update(progress, seconds_since(begin_));

@@ -146,7 +146,7 @@ void add_to_section(Json& json, const Field& field, const std::vector<std::int32
 QueryForm::QueryForm(const ResultsReader& file) : results(file) {
   for (const AnswerPolicy& policy : answer_policies(file.spec()))
     (policy.is_by_agent ? of_agents : policies).push_back(policy);
-  for (const Field* const field : asked_fields(file)) {
+  for (const Field* const field : query_fields(file)) {
     const bool is_number = (field->kind == FieldKind::steps || field->kind == FieldKind::probability) &&
                            (file.leading_length(*field) == 0 || is_of_partitions(*field));
     (is_number ? numbers : others).push_back(field);

@@ -59,7 +59,7 @@ class AnswerText {
     facts.emplace_back("leaves the safe set", collision_text(answer_["collision_time"]));
     for (const Field* const field : form_.numbers) {
       if (!QueryForm::is_of_partitions(*field))
-        facts.emplace_back(field->display.query.words,
+        facts.emplace_back(field->display.query.label,
                            value_text(*field, answer_, field->display.query.name));
     }
     facts.emplace_back("guarantee", guarantee_of_file(text_of(answer_["guarantee"]), form_.spec()));
@@ -154,13 +154,13 @@ class AnswerText {
       for (const auto& [key, path] : {std::pair("delay", policy.delay), {"countdown", policy.trigger}}) {
         if (path.empty()) continue;
         const Field& field = form_.results.field(path);
-        facts.emplace_back("  " + field.display.query.words, value_text(field, entry, key));
+        facts.emplace_back("  " + field.display.query.label, value_text(field, entry, key));
       }
       add_classes(policy, entry["classes"], facts);
     }
     for (const Field* const field : form_.numbers) {
       if (QueryForm::is_of_partitions(*field))
-        facts.emplace_back("  " + field->display.query.words,
+        facts.emplace_back("  " + field->display.query.label,
                            value_text(*field, partition, field->display.query.name));
     }
     const std::string best = best_text(p);
@@ -172,7 +172,7 @@ class AnswerText {
   void add_classes(const AnswerPolicy& policy, const Json& classes, Facts& facts) const {
     for (const Json& entry : classes) {
       if (policy.name.empty() || policy.is_by_agent || !entry["actions"].empty())
-        facts.emplace_back("  " + policy.words + " of " + text_of(entry["name"]), class_text(entry));
+        facts.emplace_back("  " + policy.label + " of " + text_of(entry["name"]), class_text(entry));
     }
   }
 
@@ -239,7 +239,7 @@ class AnswerText {
         text += "\n" + first + query.heading + "\n";
       }
       if (begins) is_displayed = true;
-      if (is_displayed) facts.emplace_back("  " + query.words, section_text(field, entry, is_displayed));
+      if (is_displayed) facts.emplace_back("  " + query.label, section_text(field, entry, is_displayed));
     }
     return facts.empty() ? text : text + facts_text(facts);
   }

@@ -206,27 +206,27 @@ class Answers {
 
   /// With many partitions only those with pictures are not folded.
   [[nodiscard]] std::string as_table() const {
-    std::vector<std::string> shown, others;
+    std::vector<std::string> displayed, others;
     for (std::size_t p = 0; p < results_.partitions().size(); ++p) {
       const PartitionAnswer answer = answer_of(p, 0);
-      (is_shown(p) ? shown : others)
+      (has_picture(p) ? displayed : others)
           .push_back(
               html_row({html_line(results_.partitions()[p].name), answer.headline(), answer.at_once()}));
     }
-    const std::size_t open = shown.size();
-    shown.insert(shown.end(), others.begin(), others.end());
-    return html_long_table({"Partition", "Silence", "Contact"}, shown, "roomy", open);
+    const std::size_t open = displayed.size();
+    displayed.insert(displayed.end(), others.begin(), others.end());
+    return html_long_table({"Partition", "Silence", "Contact"}, displayed, "roomy", open);
   }
 
  private:
-  [[nodiscard]] bool is_shown(std::size_t p) const {
+  [[nodiscard]] bool has_picture(std::size_t p) const {
     return std::find(data_.partitions.begin(), data_.partitions.end(), p) != data_.partitions.end();
   }
 
   [[nodiscard]] PartitionAnswer answer_of(std::size_t p, std::size_t i) const {
     const StoredPartition& sizes = sizes_[i][p];
     const std::int64_t best =
-        is_shown(p) ? best_cell(results_, policies_[i], p, sizes) : -1;  // else not looked for
+        has_picture(p) ? best_cell(results_, policies_[i], p, sizes) : -1;  // else not looked for
     return {results_, sizes, policies_[i], best, policies_.size() == 1};
   }
 

@@ -99,7 +99,7 @@ int report() {
   }
 }
 
-/// The exception under way as a document. An interrupt is none: mostly it ends the program where no text can
+/// The current exception as a document. An interrupt is none: mostly it ends the program where no text can
 /// be made.
 void report_as_json() noexcept {
   if (has_output()) return;

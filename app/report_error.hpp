@@ -11,18 +11,18 @@ constexpr int kInternalError = 70;
 /// Whether the arguments ask for JSON, whatever else is wrong with them.
 [[nodiscard]] bool asks_for_json(int argc, const char* const* argv) noexcept;
 
-/// Prints the exception under way as one line "coordreq: error: WHAT (WHERE)".
+/// Prints the current exception as one line "coordreq: error: WHAT (WHERE)".
 /// @pre called from within a catch block. @param as_json also as a document on standard output, where
 ///   nothing has been written yet. @returns the exit code
 [[nodiscard]] int report_current_exception(bool as_json = false) noexcept;
 
 /// From now on an exception that nothing can catch is reported so as well, and ends the program: one that is
-/// thrown while another is under way, as where memory runs out and clearing up takes more of it. GMP says by
-/// an exception that it is given no memory.
+/// thrown while another is being handled, as where memory runs out and clearing up takes more of it. GMP says
+/// by an exception that it is given no memory.
 void report_what_terminates();
 
 /// The request to report a bug of this program: "please report it ...", with the address for it if the build
-/// was told one (COORDREQ_ISSUES).
+/// has one (COORDREQ_ISSUES).
 [[nodiscard]] std::string report_request();
 
 /// The message of an exception after which the program continues.
@@ -32,7 +32,7 @@ struct Failure {
   std::vector<std::string> more;  ///< lines like it, of a spec with several errors
 };
 
-/// The exception under way. @pre called from within a catch block
+/// The current exception. @pre called from within a catch block
 [[nodiscard]] Failure describe_current_exception();
 
 /// Prints it as report_current_exception() does, for one of several things to do. @param subject the thing

@@ -21,7 +21,7 @@ namespace coordreq {
 [[nodiscard]] std::string worst_key(const Json& entry);
 /// The fault of the worst cell: "has a delay of 2 steps (1 s)", "is not safe".
 /// @param kind of the requirement @param value number of steps
-/// @param status as delay_word() says it, not unbounded
+/// @param status as delay_label() says it, not unbounded
 [[nodiscard]] std::string worst_text(const Json& kind, const Json& value, const Json& status,
                                      const ProblemSpec& spec);
 

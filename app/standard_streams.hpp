@@ -5,7 +5,7 @@
 // The only way out for text. Nothing here buffers, so that a failed write is noticed where it happens.
 namespace coordreq {
 
-/// Opens /dev/null in place of standard streams that the caller closed, so that no file of ours gets their
+/// Opens /dev/null instead of standard streams that the caller closed, so that no file of ours gets their
 /// numbers (and no message ends up inside it), makes writing to a closed pipe and beyond a limit of file
 /// sizes errors instead of signals, and reading of standard input that fails an error instead of its end.
 void hold_standard_streams();
@@ -26,7 +26,7 @@ void write_output(std::string_view text);
 /// Writes `text` to standard error as far as possible; a failure cannot be reported.
 void write_diagnostics(std::string_view text) noexcept;
 
-/// Shows `text` in place of what this has shown before, in one line of the terminal that standard error is;
+/// Shows `text` instead of what this has written before, in one line of the terminal that standard error is;
 /// empty: nothing.
 void rewrite_terminal_line(std::string_view text) noexcept;
 

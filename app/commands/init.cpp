@@ -93,7 +93,7 @@ void replace(std::string& text, std::string_view mark, std::string_view with) {
     text.replace(at, mark.size(), with);
 }
 
-/// The name of a spec in this file: its own without the ending, as far as names of specs go.
+/// The name of a spec in this file: that of the file without the ending, as far as names of specs go.
 std::string spec_name(const std::string& file) {
   std::string name = file == "-" ? "spec" : std::filesystem::path(file).stem().string();
   const auto is_plain = [](char c) {

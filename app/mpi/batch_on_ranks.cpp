@@ -10,7 +10,7 @@
 #include "app/interrupt.hpp"
 #include "base/json.hpp"
 #include "spec/read_spec.hpp"
-#include "spec/spec_place.hpp"
+#include "spec/spec_location.hpp"
 
 namespace coordreq {
 namespace {
@@ -71,8 +71,8 @@ class Dispatcher {
   void run(AnalyzeOptions args) {
     args.watch = [this] { look(); };
     for (int rank = 1; rank < ranks_.count(); ++rank) give(rank);
-    while (const std::optional<std::size_t> own = take())
-      done_(*own, outcome_of(*plan_[*own].spec, plan_[*own].output, args, ""));
+    while (const std::optional<std::size_t> run = take())
+      done_(*run, outcome_of(*plan_[*run].spec, plan_[*run].output, args, ""));
     while (at_work_ > 0) {
       if (is_interrupted()) throw interruption();
       look();

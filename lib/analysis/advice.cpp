@@ -87,7 +87,7 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
   REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
   Warnings all;
   SearchWork search;
-  if (answers.context.share) {  // nobody has all of S and K: small ones are found once more
+  if (answers.context.share) {  // no process has all of S and K: small ones are found once more
     all = advise_alone(answers.context.model, motion, true, 0, team, search);
   } else {
     all = advise_on_spec(answers.context.spec);
@@ -98,7 +98,8 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
     add(advise_on_unseen_motion(answers.context, answers.get<Invariance>().invariant, team, search), all);
     add(advise_on_standing(answers.context, answers.get<Invariance>().invariant), all);
   }
-  const bool creeps = std::ranges::any_of(all, [](const Warning& own) { return own.kind == "standing"; });
+  const bool creeps =
+      std::ranges::any_of(all, [](const Warning& warning) { return warning.kind == "standing"; });
   work["helpers"]["unseen motion"] = {{"reads", search.reads}, {"solutions", search.followed}};
   add(advise_on_answers(answers, creeps, team, work), all);
   for (const Answer& answer : all_answers()) {

@@ -41,7 +41,7 @@ namespace coordreq {
 /// Warnings that follow from K and the delays: K is empty, or no cell tolerates any silence, with the changes
 /// that would help. To find these, one rule, disturbance, error or step after the other is relaxed on a copy
 /// with at most some 10^5 cells, within a fixed amount of work: the same on every machine. A relaxed problem
-/// that cannot be analysed is passed over. @pre K and the layers are there
+/// that cannot be analysed is skipped. @pre K and the layers are there
 /// @param creeps advise_on_standing() has said so: then a finer grid is not what helps
 /// @param work takes what the trials did: `helpers/advice` with `trials` and `work`, about a nanosecond each
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, bool creeps, ThreadTeam& team, Json& work);
@@ -66,7 +66,7 @@ struct BlockedPairs {
 };
 
 /// @param dimension of the grid of the abstraction, and its side
-/// @param may_leave by own index: false where no post goes beyond that side
+/// @param may_leave by the index of the state: false where no post goes beyond that side
 /// @pre the context is set up
 [[nodiscard]] BlockedPairs count_blocked(const AnalysisContext& context, std::size_t dimension, bool above,
                                          const std::vector<bool>& may_leave);
@@ -75,19 +75,19 @@ struct BlockedPairs {
 /// not in K. The cell around a limit holds everything from the limit to half a step beside it, a vehicle that
 /// stands and others that creep; so its reachable set spreads to the next position at every step, on every
 /// grid. Centres of cells are looked at where all states with such a side are at it: some thousand cells, and
-/// some inputs; none found proves nothing. Nothing is said where nobody chooses (`given`, a controller file),
-/// where memories are kept, or where a state at rest would depend on a disturbance.
+/// some inputs; none found proves nothing. Nothing is said where there is no choice (`given`, a controller
+/// file), where memories are kept, or where a state at rest would depend on a disturbance.
 /// @param invariant K @pre the context is set up, by one process; the set has its rows
 [[nodiscard]] Warnings advise_on_standing(const AnalysisContext& context, const CellSet& invariant);
 
 /// What an analysis would find at once, without the whole of its tables: within a bounded amount of work,
 /// which no clock decides.
 ///
-/// 1. Equations are evaluated over boxes of cells, halved where they may be undefined, down to single cells,
+/// 1. Equations are evaluated on boxes of cells, halved where they may be undefined, down to single cells,
 ///    whose posts are then computed; so are those of some cells drawn at random.
 /// 2. `safe` is evaluated likewise: if it is false in all boxes, no cell satisfies it.
 ///
-/// Tables that are sums are left out: they are small. An example: `1/x` over 10^9 cells takes some 60 boxes
+/// Tables that are sums are left out: they are small. An example: `1/x` on 10^9 cells takes some 60 boxes
 /// to come to the cell at x = 0.
 /// @param posts about so many entries of tables are computed, and ten times as many boxes looked at
 /// @returns a warning if nothing satisfies `safe` @throws SpecError as build_abstraction()
@@ -99,12 +99,12 @@ struct SearchWork {
   std::int64_t followed = 0;
 };
 
-/// Where safety is asked at samples only: a motion from one cell of a set to others of it, under an
+/// Where safety is required at samples only: a motion from one cell of a set to others of it, under an
 /// admissible joint input, that passes cells outside S in between. Tried on a sample: a fixed amount of work,
 /// the same on every machine and no more than a sixteenth of a read a cell on large grids. Cells are chosen
 /// by the straight line to the middle of their post, and then followed from their centre with disturbances in
-/// the middle, without a guarantee; whoever finds none has proved nothing. Of those found it tells the first
-/// where the condition itself fails, else the first.
+/// the middle, without a guarantee; whoever finds none has proved nothing. Of those found it reports the
+/// first where the condition itself fails, else the first.
 /// @param kept K, or S where K is not known
 /// @pre the context is set up, by one process; `kept` has its rows
 [[nodiscard]] Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& kept,

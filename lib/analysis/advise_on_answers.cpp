@@ -48,9 +48,9 @@ struct Relaxation {
 /// Several of one kind at once, where one alone may not be enough. @param begin of those in `all`
 void relax_together(std::size_t begin, const std::string& text, std::vector<Relaxation>& all) {
   if (all.size() < begin + 2) return;
-  const std::vector<Relaxation> parts(all.begin() + static_cast<std::ptrdiff_t>(begin), all.end());
-  all.push_back({text, [parts](ProblemSpec& copy) {
-                   for (const Relaxation& part : parts) part.apply(copy);
+  const std::vector<Relaxation> relaxations(all.begin() + static_cast<std::ptrdiff_t>(begin), all.end());
+  all.push_back({text, [relaxations](ProblemSpec& copy) {
+                   for (const Relaxation& relaxation : relaxations) relaxation.apply(copy);
                  }});
 }
 
@@ -157,7 +157,7 @@ enum class Fault : std::uint8_t { nothing, no_silence, empty };
 Fault fault_of(const Answers& answers, std::size_t partition) {
   if (answers.get<Invariance>().cells == 0) return Fault::empty;
   const std::vector<std::int64_t>& sizes = answers.get<PartitionLayers>().partitions[partition].sizes;
-  return sizes.size() > 1 && sizes[1] == answers.context.over_cells ? Fault::no_silence : Fault::nothing;
+  return sizes.size() > 1 && sizes[1] == answers.context.terminal_cells ? Fault::no_silence : Fault::nothing;
 }
 
 struct OutOfWork {};
@@ -242,7 +242,7 @@ Trials try_all(const ProblemSpec& spec, Fault fault, ThreadTeam& team) {
   return trials;
 }
 
-std::string place_of_trials(const CoarseCopy& copy) {
+std::string grid_of_trials(const CoarseCopy& copy) {
   if (copy.factor == 1) return "";
   return fmt::format(" on a copy with {} cells (steps up to {} times as long)", grouped(copy.spec.cells()),
                      copy.factor);
@@ -261,13 +261,13 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
   const auto coarser = [&] { return coarse_copy(spec, partition, kMostCells, most_entries); };
   std::optional<CoarseCopy> copy = if_possible(coarser).value_or(std::nullopt);
   if (!copy) return "";
-  // Parts of a cell may cost a thousand times what its entry is reckoned to; without them posts are wider.
+  // Subboxes of a cell may cost a thousand times what its entry is reckoned to; without them posts are wider.
   if (spec.dynamics.time == Time::continuous) copy->spec.abstraction.effort = 0;
   const Trials trials = try_all(copy->spec, fault, team);
   work["helpers"]["advice"] = {{"trials", trials.tried}, {"work", trials.limit.spent}};
   if (trials.tried == 0) return "";
   const std::string count =
-      fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));
+      fmt::format("of {} changes tried one by one{}", trials.tried, grid_of_trials(*copy));
   if (trials.helped.empty()) return fmt::format("; {}, none helps{}", count, otherwise);
   return fmt::format("; {}, it helps if {}", count, fmt::join(trials.helped, ", or if "));
 }

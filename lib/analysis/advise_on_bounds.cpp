@@ -27,7 +27,7 @@ Faces faces_of(const StateSpec& state) {
   return {state.grid.step, Rational(state.grid.first - state.grid.step / 2)};
 }
 
-/// Whether a bound lies within a cell, part of which is occupied on both sides of it.
+/// Whether a bound lies within a cell, which has values on both sides of it.
 bool cuts_a_cell(const StateSpec& state, const Rational& value) {
   const Rational half = state.grid.step / 2;
   const Rational last = state.grid.last();
@@ -39,15 +39,15 @@ bool cuts_a_cell(const StateSpec& state, const Rational& value) {
 /// "\"origin\": 0.125", or a step that divides the present one as well, with which all bounds are faces;
 /// nothing if no such step is a tenth of the present one or longer.
 std::optional<std::string> remedy(const StateSpec& state, const std::vector<Rational>& values) {
-  constexpr long kMostParts = 10;
-  for (long parts = 1; parts <= kMostParts; ++parts) {
-    const Rational step = state.grid.step / Rational(parts);
+  constexpr long kLargestDivisor = 10;
+  for (long divisor = 1; divisor <= kLargestDivisor; ++divisor) {
+    const Rational step = state.grid.step / Rational(divisor);
     const Faces faces{step, values.front()};
     if (!std::ranges::all_of(values, [&](const Rational& value) { return faces.has(value); })) continue;
     const Rational centre = values.front() + step / 2;
     const Rational origin =
         centre - step * Rational(mpz_class(static_cast<long>(floor_to_int(centre / step))));
-    return (parts == 1 ? "" : fmt::format("\"step\": {} and ", number(step))) +
+    return (divisor == 1 ? "" : fmt::format("\"step\": {} and ", number(step))) +
            fmt::format("\"origin\": {}", number(origin));
   }
   return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<std::string> remedy(const StateSpec& state, const std::vector<Rati
 
 /// States that are bounded within cells, by what mends it.
 struct CutCells {
-  std::vector<std::string> places;                         ///< "T1 at 18 and 24"
+  std::vector<std::string> locations;                      ///< "T1 at 18 and 24"
   std::map<std::string, std::vector<std::string>> mended;  ///< states by remedy
 
   void add(const StateSpec& state, const std::vector<Rational>& values) {
@@ -63,7 +63,7 @@ struct CutCells {
     for (const Rational& value : values)
       if (cuts_a_cell(state, value)) cut.push_back(number(value));
     if (cut.empty()) return;
-    places.push_back(state.name + " at " + list_text(cut));
+    locations.push_back(state.name + " at " + list_text(cut));
     if (const std::optional<std::string> how = remedy(state, values)) mended[*how].push_back(state.name);
   }
 };
@@ -82,12 +82,12 @@ Warnings advise_on_bounds(const ProblemSpec& spec) {
         !state.discrete && state.below != Outside::periodic && state.measurement_error == 0;
     if (has_faces && !values[i].empty()) found.add(state, values[i]);
   }
-  if (found.places.empty()) return {};
+  if (found.locations.empty()) return {};
   std::vector<std::string> remedies;
   for (const auto& [how, names] : found.mended) remedies.push_back(how + " for " + list_text(names));
   return {{"bound", "/safe",
            fmt::format("bounds of 'safe' lie within cells, which are not safe as a whole: {}{}",
-                       fmt::join(found.places, ", "),
+                       fmt::join(found.locations, ", "),
                        remedies.empty()
                            ? ""
                            : fmt::format("; they are faces of cells with {}", fmt::join(remedies, ", ")))}};

@@ -52,13 +52,13 @@ class SkippedValues {
   SkippedValues(const ProblemSpec& spec, const Abstraction& abstraction, std::size_t state)
       : spec_(spec),
         abstraction_(abstraction),
-        own_(abstraction.grid.dimension_of(state)),
+        axis_(abstraction.grid.dimension_of(state)),
         ranges_(spec, abstraction.grid, abstraction.inputs, state),
         indices_(spec.slot_count(), 0) {}
 
   /// @returns "from ... it can become ..., and the successor set holds ... as well"; empty: there is none
   [[nodiscard]] std::string find() {
-    const TransitionTable& table = abstraction_.tables[own_];
+    const TransitionTable& table = abstraction_.tables[axis_];
     int looked_at = 0;
     const std::size_t entries = std::min(table.entries.size(), kMostEntries);
     for (std::size_t e = 0; e < entries && looked_at < kMostPosts; ++e) {
@@ -72,15 +72,16 @@ class SkippedValues {
   }
 
  private:
-  [[nodiscard]] const GridDimension& dimension() const { return abstraction_.grid[own_]; }
+  [[nodiscard]] const GridDimension& dimension() const { return abstraction_.grid[axis_]; }
 
-  void go_to(const TransitionTable& table, std::int64_t place) {
+  void go_to(const TransitionTable& table, std::int64_t position) {
     const UniformGrid& grid = abstraction_.grid;
     for (const std::int32_t i : table.states)
-      indices_[spec_.state_slot(grid.state(at(i)))] = place / table.state_stride[at(i)] % grid[at(i)].count;
+      indices_[spec_.state_slot(grid.state(at(i)))] =
+          position / table.state_stride[at(i)] % grid[at(i)].count;
     for (const std::int32_t i : table.inputs)
       indices_[spec_.input_slot(at(i))] =
-          place / table.input_stride[at(i)] % abstraction_.inputs[at(i)].count();
+          position / table.input_stride[at(i)] % abstraction_.inputs[at(i)].count();
   }
 
   [[nodiscard]] std::string text(const TransitionTable& table, const std::vector<std::int64_t>& values,
@@ -96,8 +97,8 @@ class SkippedValues {
       from.push_back(input.name + " = " + to_text(input.values[at(indices_[spec_.input_slot(at(i))])]));
     }
     for (const std::int64_t value : values) {
-      std::string word = to_text(dimension().point(value));
-      if (std::find(to.begin(), to.end(), word) == to.end()) to.push_back(std::move(word));
+      std::string text = to_text(dimension().point(value));
+      if (std::find(to.begin(), to.end(), text) == to.end()) to.push_back(std::move(text));
     }
     return fmt::format("from {} it can become {}, and the successor set holds {} as well",
                        fmt::join(from, ", "), fmt::join(to, " or "), to_text(dimension().point(skipped)));
@@ -105,7 +106,7 @@ class SkippedValues {
 
   const ProblemSpec& spec_;
   const Abstraction& abstraction_;
-  std::size_t own_;
+  std::size_t axis_;
   UpdateRanges ranges_;
   std::vector<std::int64_t> indices_;
 };

@@ -21,27 +21,29 @@ struct Spread {
   double least_sum = 0, most_sum = 0;  ///< for the sum of its ends, twice the motion of the middle
 };
 
-/// Bounds by own index. Parts of a table, each with entries of its own, are added up.
+/// Bounds by the index of the state itself. Terms of a table, each with separate entries, are added up.
 class Spreads {
  public:
   explicit Spreads(std::int64_t count) : all_(static_cast<std::size_t>(count)) {}
 
-  /// @param stride of the own index among the entries; 0: they do not depend on it
+  /// @param stride of this index among the entries; 0: they do not depend on it
   template <class Entries, class Ends>
   void add(const Entries& entries, std::int64_t stride, const Ends& ends) {
     const auto count = static_cast<std::int64_t>(all_.size());
-    std::vector<Spread> part(stride == 0 ? 1 : all_.size(), {kFar, -kFar, kFar, -kFar});
+    std::vector<Spread> term_spreads(stride == 0 ? 1 : all_.size(), {kFar, -kFar, kFar, -kFar});
     for (std::size_t at = 0; at < entries.size(); ++at) {
       const auto [first, last] = ends(at);
       Spread& spread =
-          part[stride == 0 ? 0 : static_cast<std::size_t>(static_cast<std::int64_t>(at) / stride % count)];
+          term_spreads[stride == 0
+                           ? 0
+                           : static_cast<std::size_t>(static_cast<std::int64_t>(at) / stride % count)];
       spread.first = std::min(spread.first, first);
       spread.last = std::max(spread.last, last);
       spread.least_sum = std::min(spread.least_sum, first + last);
       spread.most_sum = std::max(spread.most_sum, first + last);
     }
     for (std::size_t k = 0; k < all_.size(); ++k) {
-      const Spread& spread = part[stride == 0 ? 0 : k];
+      const Spread& spread = term_spreads[stride == 0 ? 0 : k];
       all_[k].first += spread.first;
       all_[k].last += spread.last;
       all_[k].least_sum += spread.least_sum;
@@ -49,14 +51,14 @@ class Spreads {
     }
   }
 
-  /// From indices to what they are away from the own one.
+  /// From indices to differences from the index of the state itself.
   void make_relative() {
     for (std::size_t k = 0; k < all_.size(); ++k) {
-      const auto own = static_cast<double>(k);
-      all_[k].first -= own;
-      all_[k].last -= own;
-      all_[k].least_sum -= 2 * own;
-      all_[k].most_sum -= 2 * own;
+      const auto index = static_cast<double>(k);
+      all_[k].first -= index;
+      all_[k].last -= index;
+      all_[k].least_sum -= 2 * index;
+      all_[k].most_sum -= 2 * index;
     }
   }
 
@@ -70,9 +72,9 @@ class Spreads {
 /// Rounding of what is added up here, in steps.
 constexpr double kSlack = 1e-6;
 
-Spreads spreads_of(const TransitionTable& table, std::size_t own, std::int64_t count) {
+Spreads spreads_of(const TransitionTable& table, std::size_t axis, std::int64_t count) {
   Spreads spreads(count);
-  const std::int64_t stride = table.state_stride[own];
+  const std::int64_t stride = table.state_stride[axis];
   if (!table.is_sum()) {
     spreads.add(table.entries, stride, [&](std::size_t at) {
       return std::pair<double, double>(table.entries[at].first, table.entries[at].last);
@@ -81,21 +83,21 @@ Spreads spreads_of(const TransitionTable& table, std::size_t own, std::int64_t c
     // The upper end as the lower one is kept: a cell further.
     const double unit = 1.0 / static_cast<double>(std::int64_t{1} << TransitionTable::kFractionBits);
     const auto add = [&](const std::vector<std::int64_t>& lower, const std::vector<std::int64_t>& upper,
-                         std::int64_t own_stride) {
-      spreads.add(lower, own_stride, [&](std::size_t at) {
+                         std::int64_t axis_stride) {
+      spreads.add(lower, axis_stride, [&](std::size_t at) {
         return std::pair(static_cast<double>(lower[at]) * unit, static_cast<double>(upper[at]) * unit);
       });
     };
     add(table.base_lower, table.base_upper, stride);
-    for (const TransitionTerm& term : table.terms) add(term.lower, term.upper, term.state_stride[own]);
+    for (const TransitionTerm& term : table.terms) add(term.lower, term.upper, term.state_stride[axis]);
   }
   if (!table.shift) spreads.make_relative();
   return spreads;
 }
 
-/// Every post holds its own cell, or reaches no further than a neighbour, and its middle moves by less than a
-/// cell: with ends at indices first and last that is |first + last| < 2, where the ends of a sum are real
-/// numbers, of which the upper one is a cell further.
+/// Every post holds the cell itself, or reaches no further than a neighbour, and its middle moves by less
+/// than a cell: with ends at indices first and last that is |first + last| < 2, where the ends of a sum are
+/// real numbers, of which the upper one is a cell further.
 bool moves_less_than_a_cell(const Spreads& spreads, bool is_sum) {
   const double middle = is_sum ? 1 : 0;
   const double slack = is_sum ? kSlack : 0;
@@ -105,11 +107,11 @@ bool moves_less_than_a_cell(const Spreads& spreads, bool is_sum) {
   });
 }
 
-/// False where one of some entries shows a motion of a cell, so that nobody need look at all of a large
-/// table.
-bool may_move_less_than_a_cell(const TransitionTable& table, std::size_t own, std::int64_t count) {
+/// False where one of some entries shows a motion of a cell, so that a large table need not be
+/// searched in full.
+bool may_move_less_than_a_cell(const TransitionTable& table, std::size_t axis, std::int64_t count) {
   constexpr std::size_t kLook = 4096;
-  const std::int64_t stride = table.state_stride[own];
+  const std::int64_t stride = table.state_stride[axis];
   for (std::size_t at = 0; at < table.entries.size(); at += table.entries.size() / kLook + 1) {
     const std::int64_t k = stride == 0 ? 0 : static_cast<std::int64_t>(at) / stride % count;
     const std::int64_t first = table.entries[at].first - k, last = table.entries[at].last - k;

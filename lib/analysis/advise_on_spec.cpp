@@ -28,11 +28,11 @@ bool covers(const GridSpec& grid, const Rational& lower, const Rational& upper, 
 }
 
 void advise_on_grid(const std::string& points, const GridSpec& grid, const Rational& lower,
-                    const Rational& upper, const std::string& place, Warnings& found) {
+                    const Rational& upper, const std::string& pointer, Warnings& found) {
   const Rational last = grid.last();
   const char* const reason =
       is_integer(Rational((upper - lower) / grid.step)) ? "" : ", because the step does not divide that";
-  found.push_back({"grid", place,
+  found.push_back({"grid", pointer,
                    fmt::format("{} go from {} to {} in steps of {}, not from {} to {}{}", points,
                                short_number(grid.first), short_number(last), short_number(grid.step),
                                short_number(lower), short_number(upper), reason)});
@@ -62,40 +62,40 @@ void advise_on_input_grids(const ProblemSpec& spec, const Node& root, Warnings& 
   }
 }
 
-using Words = std::set<std::string>;
+using Names = std::set<std::string>;
 
-/// Adds the words of all texts below a value that may be expressions. A text that only looks like one hides
+/// Adds the names in all texts below a value that may be expressions. A text that only looks like one hides
 /// at most a warning.
-void add_words(const Json& value, Words& words) {
-  static const Words kPlain = {"name", "unit", "description", "$schema", "file"};
-  if (value.is_string()) words.merge(names_in(value.get<std::string>()));
+void add_names(const Json& value, Names& names) {
+  static const Names kPlain = {"name", "unit", "description", "$schema", "file"};
+  if (value.is_string()) names.merge(names_in(value.get<std::string>()));
   if (value.is_array())
-    for (const auto& element : value) add_words(element, words);
+    for (const auto& element : value) add_names(element, names);
   if (!value.is_object()) return;
   for (const auto& [key, member] : value.items())
-    if (!kPlain.contains(key)) add_words(member, words);
+    if (!kPlain.contains(key)) add_names(member, names);
 }
 
 /// The names that a spec uses, directly or through definitions.
-Words used_names(const Json& root) {
-  Words used;
-  for (const auto& [key, part] : root.items()) {
+Names used_names(const Json& root) {
+  Names used;
+  for (const auto& [key, member] : root.items()) {
     if (key == "constants" || key == "definitions" || key == "memory") continue;
     if (key != "agents") {
-      add_words(part, used);
+      add_names(member, used);
       continue;
     }
-    for (const auto& agent : part)
-      if (agent.contains("prefer")) add_words(agent["prefer"], used);
+    for (const auto& agent : member)
+      if (agent.contains("prefer")) add_names(agent["prefer"], used);
   }
   return with_names_behind(root, std::move(used));
 }
 
 void advise_on_names(const Node& root, const Json& document, Warnings& found) {
-  const Words used = used_names(document);
-  const auto look = [&](const char* kind, const std::string& name, const std::string& place) {
+  const Names used = used_names(document);
+  const auto look = [&](const char* kind, const std::string& name, const std::string& pointer) {
     if (used.contains(name)) return;
-    found.push_back({"unused", place, fmt::format("nothing depends on the {} {}", kind, name)});
+    found.push_back({"unused", pointer, fmt::format("nothing depends on the {} {}", kind, name)});
   };
   for (const auto& [list, kind] : {std::pair("constants", "constant"), std::pair("definitions", "definition"),
                                    std::pair("memory", "memory")}) {
@@ -128,7 +128,7 @@ void advise_on_jumps(const ProblemSpec& spec, Warnings& found) {
 }  // namespace
 
 Warnings advise_on_spec(const ProblemSpec& spec) {
-  constexpr std::size_t kLongText = std::size_t{1} << 20;  // it would take memory that nobody has counted
+  constexpr std::size_t kLongText = std::size_t{1} << 20;  // it would take memory that is not counted
   if (spec.text.size() > kLongText) return {};
   const JsonDocument document = JsonDocument::parse(spec.text, "the spec");
   Warnings found;

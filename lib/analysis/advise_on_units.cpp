@@ -18,7 +18,7 @@ struct Measure {
   UnitValue unit;
   std::string text;        ///< as users write it
   std::string name;        ///< of a variable
-  bool is_number = false;  ///< a plain number, as sines are, although nobody has said so
+  bool is_number = false;  ///< a plain number, as sines are, although the spec does not say so
 };
 using Known = std::optional<Measure>;
 
@@ -26,9 +26,9 @@ using Known = std::optional<Measure>;
 std::vector<Known> measures_of(const SystemSpec& spec) {
   std::vector<Known> all;
   const auto add = [&all](const auto& variables) {
-    for (const auto& own : variables) {
-      const std::optional<UnitValue> unit = unit_value(own.unit);
-      all.push_back(unit ? Known({*unit, own.unit, own.name}) : Known());
+    for (const auto& variable : variables) {
+      const std::optional<UnitValue> unit = unit_value(variable.unit);
+      all.push_back(unit ? Known({*unit, variable.unit, variable.name}) : Known());
     }
   };
   add(spec.states);
@@ -53,7 +53,7 @@ Known raised(const Program& program, const Known& base, const Program::Node& exp
   return Measure{power(base->unit, times), fmt::format("({})^{}", base->text, times), "", base->is_number};
 }
 
-/// By node: of a sum what is known of one of its parts; nothing of constants, and of what they multiply, for
+/// By node: of a sum what is known of one of its terms; nothing of constants, and of what they multiply, for
 /// that may be a conversion.
 std::vector<Known> measures_of_nodes(const Program& program, const std::vector<Known>& slots) {
   std::vector<Known> all(program.nodes.size());
@@ -97,15 +97,15 @@ std::vector<Known> measures_of_nodes(const Program& program, const std::vector<K
   return all;
 }
 
-/// The parts of a sum.
+/// The terms of a sum.
 void add_terms(const Program& program, std::uint32_t node, std::vector<std::uint32_t>& terms) {
   constexpr std::size_t kMostTerms = 1000;  // sums of sums that are stored once have more than nodes
-  const Program::Node& own = program.nodes[node];
+  const Program::Node& self = program.nodes[node];
   if (terms.size() >= kMostTerms) return;
-  if (own.op == Operator::negate) return add_terms(program, own.a, terms);
-  if (own.op != Operator::add && own.op != Operator::subtract) return terms.push_back(node);
-  add_terms(program, own.a, terms);
-  add_terms(program, own.b, terms);
+  if (self.op == Operator::negate) return add_terms(program, self.a, terms);
+  if (self.op != Operator::add && self.op != Operator::subtract) return terms.push_back(node);
+  add_terms(program, self.a, terms);
+  add_terms(program, self.b, terms);
 }
 
 /// Terms of the derivative of a state that are not in its unit by the unit of time.
@@ -132,7 +132,7 @@ void advise_on_derivative(const SystemSpec& spec, std::size_t i, const std::vect
 }
 
 /// Sines of degrees, and of periodic states that do not come round when sines do.
-void advise_on_turns(const SystemSpec& spec, const Program& program, const std::string& place,
+void advise_on_turns(const SystemSpec& spec, const Program& program, const std::string& pointer,
                      const std::vector<Known>& slots, Warnings& found) {
   const std::vector<Known> nodes = measures_of_nodes(program, slots);
   std::vector<double> values(std::max(spec.slot_count(), std::size_t{1}));
@@ -155,7 +155,7 @@ void advise_on_turns(const SystemSpec& spec, const Program& program, const std::
     if (argument && !argument->is_number && !argument->unit.has_dimension() &&
         !is_same(argument->unit, UnitValue{})) {
       found.push_back(
-          {"units", place,
+          {"units", pointer,
            fmt::format("{} takes radians, but {} is in {}", spelling(node.op),
                        argument->name.empty() ? "what it is given" : argument->name, argument->text)});
       return;
@@ -165,15 +165,15 @@ void advise_on_turns(const SystemSpec& spec, const Program& program, const std::
       if (state.below != Outside::periodic) continue;
       run();
       const double before = evaluator.at(node.a);
-      double& own = values[spec.state_slot(i)];
-      own = nearest_double(state.upper);
+      double& value = values[spec.state_slot(i)];
+      value = nearest_double(state.upper);
       run();
       const double turns = (evaluator.at(node.a) - before) / (2 * std::numbers::pi);
-      own = nearest_double(state.lower);
+      value = nearest_double(state.lower);
       constexpr double kRounding = 1e-6;
       if (!std::isfinite(turns) || std::fabs(turns - std::round(turns)) < kRounding) continue;
       found.push_back(
-          {"units", place,
+          {"units", pointer,
            fmt::format("{} is periodic, and over one period {} makes {:.6g} turns, no whole number: "
                        "angles are in radians",
                        state.name, spelling(node.op), std::fabs(turns))});

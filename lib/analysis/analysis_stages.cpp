@@ -14,13 +14,13 @@ void append(std::vector<Stage>& stages, std::vector<Stage> more) {
   for (Stage& stage : more) stages.push_back(std::move(stage));
 }
 
-/// Tells all processes the controller that the first one has read.
+/// Sends all processes the controller that the first one has read.
 void share_listed(Ranks& ranks, ListedController& listed) {
   const auto text = std::as_bytes(std::span(listed.sha256));
   const Bytes sum = ranks.from_first({text.begin(), text.end()});
   listed.sha256.assign(reinterpret_cast<const char*>(sum.data()), sum.size());
-  const auto own = std::as_bytes(std::span(listed.pairs.bytes));
-  Bytes message(own.begin(), own.end());
+  const auto pair_bytes = std::as_bytes(std::span(listed.pairs.bytes));
+  Bytes message(pair_bytes.begin(), pair_bytes.end());
   put_numbers<std::int64_t>(message, {&listed.pairs.inputs, 1});
   const Bytes pairs = ranks.from_first(std::move(message));
   MessageReader reader(pairs);
@@ -30,7 +30,7 @@ void share_listed(Ranks& ranks, ListedController& listed) {
   listed.pairs.inputs = reader.number();
 }
 
-/// A file that does not fit is an error that nobody should wait for.
+/// A file that does not fit is an error that should be reported at once.
 void read_listed(Answers& answers, const StageWork& /*work*/) {
   AnalysisContext& context = answers.context;
   if (context.ranks == nullptr || context.ranks->rank() == 0) {

@@ -52,11 +52,11 @@ void check_rank_memory(const AnalysisContext& context, const RankMemory& memory,
   std::int64_t held = 0;
   for (const RowShare::Range run : context.share->held()) held += run.end - run.begin;
   const auto rows = static_cast<double>(context.abstraction->grid.rows());
-  const RowShare::Range own = context.share->own();
-  const RowFractions part{.held = static_cast<double>(held) / rows,
-                          .own = static_cast<double>(own.end - own.begin) / rows,
-                          .slices = bytes_of_slices(*context.engine)};
-  const double needed = estimate_memory_of_rank(context.model, threads, memory.before, part);
+  const RowShare::Range local_rows = context.share->local();
+  const RowFractions fractions{.held = static_cast<double>(held) / rows,
+                               .own = static_cast<double>(local_rows.end - local_rows.begin) / rows,
+                               .slices = bytes_of_slices(*context.engine)};
+  const double needed = estimate_memory_of_rank(context.model, threads, memory.before, fractions);
   const std::int64_t most = context.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));
   check_memory_limit(context.spec, static_cast<double>(most), static_cast<double>(*memory.limit),
                      fmt::format("on the fullest of {} ranks, ", context.ranks->count()));
@@ -72,11 +72,11 @@ class ExchangeMeter {
     stage_ = stage;
   }
   /// Adds them to what fixed points took. Together.
-  void tell(Json& work) {
+  void describe(Json& work) {
     if (ranks_ == nullptr) return;
     end();
     std::vector<std::int64_t> bytes;
-    for (const auto& [stage, own] : stages_) bytes.push_back(own);
+    for (const auto& [stage, sent] : stages_) bytes.push_back(sent);
     ranks_->add(bytes);
     for (std::size_t i = 0; i < bytes.size(); ++i) {
       if (work.contains(stages_[i].first)) work[stages_[i].first]["exchanged_bytes"] = bytes[i];
@@ -100,10 +100,11 @@ class ExchangeMeter {
 
 void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpoint, const RankMemory& memory,
                   ExchangeMeter& meter, ThreadTeam& team) {
-  const StageWork work{.team = team,
-                       .part = [&reporter](const std::string& part) { reporter.enter_part(part); },
-                       .step = [&reporter](const WaveStep& step,
-                                           std::int64_t row_length) { reporter.step(step, row_length); }};
+  const StageWork work{
+      .team = team,
+      .substage = [&reporter](const std::string& substage) { reporter.enter_substage(substage); },
+      .step = [&reporter](const WaveStep& step,
+                          std::int64_t row_length) { reporter.step(step, row_length); }};
   bool is_checked = false;
   const PlanWatch watch{.enter =
                             [&](const std::string& stage) {
@@ -121,8 +122,8 @@ void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpo
 
 void write(const std::string& path, const Answers& answers, StageReporter& reporter, ThreadTeam& team) {
   reporter.enter("writing");
-  reporter.enter_part("lists");
-  FieldValues values = found_values(answers, team);
+  reporter.enter_substage("lists");
+  FieldValues values = computed_values(answers, team);
   reporter.watch_writing(answers.context.spec, values);
   reporter.set_temporary(true);
   std::optional<RankChunks> ranks;
@@ -155,7 +156,7 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, memory, meter, team);
   Json work = Json::object();
   Json summary = summarise(answers, work);
-  meter.tell(work);
+  meter.describe(work);
   const std::optional<Tightness> tightness = find_tightness(answers.context);
   if (tightness) {
     work["helpers"]["tightness"] = {{"posts", tightness->posts.size()}, {"left_out", tightness->left_out}};

@@ -31,7 +31,7 @@ struct AnalysisOptions {
   std::optional<std::uint64_t> max_memory;
 };
 
-/// The whole analysis: abstraction, S, K, layers, trigger tables, results file if one is asked for. The file
+/// The whole analysis: abstraction, S, K, layers, trigger tables, results file if one is requested. The file
 /// is the same to the byte whether or not the work was broken off and gone on with from a checkpoint; that is
 /// removed in the end.
 /// @returns the summary of the contract, section 3: what each answer says of itself, and then `output` (null
@@ -57,7 +57,7 @@ struct SpecReport {
     std::vector<std::string> inputs;
     std::vector<std::string> disturbances;
     bool shift = false;  ///< only as an offset to the present value, stored once for all present ones
-    bool sum = false;    ///< a term for each state in which it is affine, plus a base over the rest
+    bool sum = false;    ///< a term for each state in which it is affine, plus a base of the rest
     std::uint64_t table_entries = 0;  ///< numbers of ranges or, in a sum, of pairs of summands
     std::uint64_t table_bytes = 0;
   };
@@ -105,7 +105,7 @@ struct RankLimits {
 
 /// Makes the abstraction as the processes would, and nothing that they divide.
 /// @param threads that each would have
-/// @throws LimitError if a limit is too low, before anything is made if that can be told then
+/// @throws LimitError if a limit is too low, before anything is made if that is known then
 [[nodiscard]] FullestRank inspect_ranks(const Model& model, int ranks, int threads, const RankLimits& limits,
                                         ThreadTeam& team);
 

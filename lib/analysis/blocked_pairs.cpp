@@ -25,9 +25,9 @@ class PairCounter {
     for (const std::int64_t count : counts_) choices_ *= count;
   }
 
-  /// @param may_leave by own index, for those that are worth a look
+  /// @param may_leave by the index of the state, for those that are worth a look
   BlockedPairs run(const std::vector<bool>& may_leave) {
-    known_.assign(places(), -1);
+    known_.assign(positions(), -1);
     const CellSet& safe = context_.safe;
     const UniformGrid& grid = abstraction_.grid;
     for (std::int64_t r = 0; r < safe.rows() && looked_at_ < kMost; ++r) {
@@ -49,29 +49,30 @@ class PairCounter {
  private:
   static constexpr std::int64_t kMost = std::int64_t{1} << 22;
 
-  /// Number of values of place_of(); 0 where place_of() does not tell enough, or they are too many to be
-  /// kept.
-  [[nodiscard]] std::size_t places() const {
+  /// Number of values of position_of(); 0 where position_of() does not determine the post, or they are too
+  /// many to be kept.
+  [[nodiscard]] std::size_t positions() const {
     const TransitionTable& table = abstraction_.tables[i_];
     if (context_.pairs.admissible() != nullptr || table.is_sum()) return 0;
-    const std::int64_t own = table.shift ? abstraction_.grid[i_].count : 1;
-    const std::int64_t all = static_cast<std::int64_t>(table.entries.size()) / choices_ * own;
+    const std::int64_t indices = table.shift ? abstraction_.grid[i_].count : 1;
+    const std::int64_t all = static_cast<std::int64_t>(table.entries.size()) / choices_ * indices;
     return all <= kMost ? at(all) : 0;
   }
 
   /// All that the post of a cell depends on besides the inputs, which are last in the layout of tables.
-  [[nodiscard]] std::int64_t place_of(std::int64_t cell) const {
+  [[nodiscard]] std::int64_t position_of(std::int64_t cell) const {
     const TransitionTable& table = abstraction_.tables[i_];
-    std::int64_t place = 0;
+    std::int64_t position = 0;
     for (const std::int32_t j : table.states)
-      place += abstraction_.grid.index(cell, at(j)) * table.state_stride[at(j)];
-    place /= choices_;
-    return table.shift ? place * abstraction_.grid[i_].count + abstraction_.grid.index(cell, i_) : place;
+      position += abstraction_.grid.index(cell, at(j)) * table.state_stride[at(j)];
+    position /= choices_;
+    return table.shift ? position * abstraction_.grid[i_].count + abstraction_.grid.index(cell, i_)
+                       : position;
   }
 
   [[nodiscard]] std::int64_t blocked_at_cell(std::int64_t cell, std::int64_t row, std::int64_t column) {
     if (known_.empty()) return count_inputs(cell, row, column);
-    std::int64_t& known = known_[at(place_of(cell))];
+    std::int64_t& known = known_[at(position_of(cell))];
     if (known < 0) known = count_inputs(cell, row, column);
     return known;
   }
@@ -108,7 +109,7 @@ class PairCounter {
   std::vector<std::size_t> inputs_;
   std::vector<std::int64_t> counts_;
   std::int64_t choices_ = 1;         ///< product of those counts
-  std::vector<std::int64_t> known_;  ///< [place] how many joint inputs are blocked; -1: not counted yet
+  std::vector<std::int64_t> known_;  ///< [position] how many joint inputs are blocked; -1: not counted yet
   std::int64_t looked_at_ = 0;
   std::int64_t blocked_ = 0;
 };

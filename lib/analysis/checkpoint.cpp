@@ -19,7 +19,7 @@
 namespace coordreq {
 namespace {
 
-/// Saving takes at most one part in so many of the time.
+/// Saving takes at most this fraction of the time: one over this number.
 constexpr double kShare = 10;
 
 std::string section_name(std::size_t record) {
@@ -46,15 +46,15 @@ std::string sha256_of_controller(const ProblemSpec& spec) {
 
 class Checkpoint::Saving : public Archive {
  public:
-  /// @param file null: only parts are written here @param parts null: there are none
-  Saving(CheckpointWriter* file, CheckpointParts* parts) : file_(file), parts_(parts) {}
+  /// @param file null: only segments are written here @param segments null: there are none
+  Saving(CheckpointWriter* file, CheckpointSegments* segments) : file_(file), segments_(segments) {}
   [[nodiscard]] bool is_loading() const override { return false; }
   void rows(const NumberRows& rows) override {
     if (file_ != nullptr && rows.rows > 0 && rows.row_length > 0) file_->add(rows);
   }
-  void grid_rows(const NumberRows& all, ThreadTeam::Range own,
+  void grid_rows(const NumberRows& all, ThreadTeam::Range local_rows,
                  std::span<const ThreadTeam::Range> /*held*/) override {
-    parts_ == nullptr ? rows(all) : parts_->add(all, own);
+    segments_ == nullptr ? rows(all) : segments_->add(all, local_rows);
   }
 
  private:
@@ -63,7 +63,7 @@ class Checkpoint::Saving : public Archive {
   }
 
   CheckpointWriter* file_;
-  CheckpointParts* parts_;
+  CheckpointSegments* segments_;
 };
 
 class Checkpoint::Loading : public Archive {
@@ -74,10 +74,10 @@ class Checkpoint::Loading : public Archive {
     if (rows.rows > 0 && rows.row_length > 0)
       expect(checkpoint_.reader_->read(rows), "a list has another length or other numbers");
   }
-  void grid_rows(const NumberRows& all, ThreadTeam::Range /*own*/,
+  void grid_rows(const NumberRows& all, ThreadTeam::Range /*local_rows*/,
                  std::span<const ThreadTeam::Range> held) override {
-    if (!checkpoint_.parts_) return rows(all);
-    expect(checkpoint_.parts_->read(all, held), "its parts have other rows or other numbers");
+    if (!checkpoint_.segments_) return rows(all);
+    expect(checkpoint_.segments_->read(all, held), "its parts have other rows or other numbers");
   }
 
  private:
@@ -90,17 +90,17 @@ class Checkpoint::Loading : public Archive {
 
 Checkpoint::Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener, Ranks* ranks)
     : options_(std::move(options)),
-      parts_(ranks == nullptr ? std::nullopt
-                              : std::optional<CheckpointParts>(std::in_place, options_.file, *ranks)),
-      file_(parts_ ? CheckpointParts::manifest(options_.file) : options_.file),
+      segments_(ranks == nullptr ? std::nullopt
+                                 : std::optional<CheckpointSegments>(std::in_place, options_.file, *ranks)),
+      file_(segments_ ? CheckpointSegments::manifest(options_.file) : options_.file),
       identity_{sha256_hex(spec.text), is_first() ? sha256_of_controller(spec) : "", program()},
       listener_(std::move(listener)),
       saved_(Clock::now()) {
   bool is_there = is_first() && take_or_make();
-  if (parts_) {
-    is_there = parts_->ranks().sum(is_there ? 1 : 0) > 0;
+  if (segments_) {
+    is_there = segments_->ranks().sum(is_there ? 1 : 0) > 0;
     if (is_there && !is_first()) open();
-    parts_->check();
+    segments_->check();
   }
   if (!options_.resume || !is_first()) return;
   listener_.notice(
@@ -118,7 +118,7 @@ bool Checkpoint::take_or_make() {
     make_first();
   }
   remove_unfinished(file_, kUnfinished);
-  if (parts_) parts_->remove_others();
+  if (segments_) segments_->remove_others();
   return is_there;
 }
 
@@ -143,13 +143,13 @@ void Checkpoint::make_first() {
 void Checkpoint::open() {
   reader_ = std::make_unique<CheckpointReader>(file_);
   if (is_first()) check_identity();
-  if (parts_ && !parts_->take(*reader_)) refuse("has parts that are none");
+  if (segments_ && !segments_->take(*reader_)) refuse("has parts that are none");
   if (!next_record()) close();
 }
 
 void Checkpoint::close() {
   reader_.reset();
-  if (parts_) parts_->close();
+  if (segments_) segments_->close();
 }
 
 void Checkpoint::check_identity() {
@@ -172,11 +172,11 @@ void Checkpoint::refuse(const std::string& reason) const {
 
 /// Goes to the next record. @returns false if there is none
 bool Checkpoint::next_record() {
-  const std::string section = section_name(taken_);
+  const std::string section = section_name(records_read_);
   const Json record = reader_->begin(section);
   if (record.is_null()) return false;
-  if (parts_) parts_->read_from(section);
-  ++taken_;
+  if (segments_) segments_->read_from(section);
+  ++records_read_;
   next_stage_ = text_of(record, "stage");
   const auto is_finished = record.find("finished");
   if (is_finished == record.end() || !is_finished->is_boolean())
@@ -196,7 +196,7 @@ StageStore::Kept Checkpoint::take(const Serialise& load) {
   const bool is_finished = next_is_finished_;
   Loading archive(*this);
   load(archive);
-  // The work under way is the last record of the file.
+  // The current work is the last record of the file.
   if (!next_record()) close();
   if (!is_finished && reader_)
     refuse(fmt::format("continues after the stage '{}', which is not finished", stage_));
@@ -220,14 +220,14 @@ bool Checkpoint::is_due() const {
   if (options_.every_seconds <= 0) return true;
   const double pause = std::max(options_.every_seconds, (kShare - 1) * cost_.count());
   const bool is_due = Clock::now() - saved_ >= std::chrono::duration<double>(pause);
-  return parts_ ? parts_->ranks().sum(is_first() && is_due ? 1 : 0) > 0 : is_due;
+  return segments_ ? segments_->ranks().sum(is_first() && is_due ? 1 : 0) > 0 : is_due;
 }
 
-void Checkpoint::save(const Record* under_way) {
+void Checkpoint::save(const Record* current) {
   const Clock::time_point begin = Clock::now();
   listener_.progress(true);
   try {
-    parts_ ? replace_together(under_way) : replace(under_way);
+    segments_ ? replace_together(current) : replace(current);
     is_failing_ = false;
   } catch (const IoError& error) {
     if (!is_failing_)
@@ -239,16 +239,16 @@ void Checkpoint::save(const Record* under_way) {
   cost_ = saved_ - begin;
 }
 
-void Checkpoint::replace(const Record* under_way) {
+void Checkpoint::replace(const Record* current) {
   OutputFile output(file_, kCheckpointName, kUnfinished);
   CheckpointWriter file(output.temporary(), options_.file, header(), [this] { listener_.progress(true); });
-  write_records(&file, under_way);
+  write_records(&file, current);
   file.finish();
   commit(output);
 }
 
 /// Replaces the file; if one process fails, all of them learn of it.
-void Checkpoint::replace_together(const Record* under_way) {
+void Checkpoint::replace_together(const Record* current) {
   std::optional<OutputFile> output;
   std::optional<CheckpointWriter> file;
   std::optional<IoError> failure;
@@ -265,19 +265,19 @@ void Checkpoint::replace_together(const Record* under_way) {
       output.emplace(file_, kCheckpointName, kUnfinished);
       file.emplace(output->temporary(), options_.file, header(), progress);
     }
-    parts_->start(progress);
-    write_records(file ? &*file : nullptr, under_way);
-    parts_->finish();
+    segments_->start(progress);
+    write_records(file ? &*file : nullptr, current);
+    segments_->finish();
   });
-  const bool are_written = parts_->agree(!failure);
+  const bool are_written = segments_->agree(!failure);
   if (!are_written && !failure) failure.emplace("another rank cannot write its part", options_.file);
   attempt([&] {
     if (!is_first()) return;
-    parts_->describe(*file);
+    segments_->describe(*file);
     file->finish();
     commit(*output);
   });
-  parts_->settle(parts_->ranks().sum(failure ? 1 : 0) == 0);
+  segments_->settle(segments_->ranks().sum(failure ? 1 : 0) == 0);
   if (failure) throw IoError(*failure);
 }
 
@@ -292,18 +292,18 @@ Json Checkpoint::header() const {
   return {{"spec", identity_.spec}, {"controller", identity_.controller}, {"program", identity_.program}};
 }
 
-/// @param file null: this process writes a part alone
-void Checkpoint::write_records(CheckpointWriter* file, const Record* under_way) {
+/// @param file null: this process writes a segment alone
+void Checkpoint::write_records(CheckpointWriter* file, const Record* current) {
   std::size_t count = 0;
   const auto add = [&](const Record& record) {
     const std::string section = section_name(count++);
-    if (parts_) parts_->begin(section);
+    if (segments_) segments_->begin(section);
     if (file != nullptr) file->begin(section, {{"stage", record.stage}, {"finished", record.is_finished}});
-    Saving archive(file, parts_ ? &*parts_ : nullptr);
+    Saving archive(file, segments_ ? &*segments_ : nullptr);
     record.save(archive);
   };
   for (const Record& record : finished_) add(record);
-  if (under_way != nullptr) add(*under_way);
+  if (current != nullptr) add(*current);
 }
 
 // A symbolic link stays, as it does when the file is written.
@@ -313,8 +313,8 @@ void Checkpoint::remove() {
   const std::filesystem::path file = std::filesystem::canonical(file_, error);
   if (!error) static_cast<void>(std::filesystem::remove(file, error));
   remove_unfinished(file_, kUnfinished);
-  if (!parts_) return;
-  parts_->remove_all();
+  if (!segments_) return;
+  segments_->remove_all();
   // With what the user has put there it stays.
   static_cast<void>(std::filesystem::remove(options_.file, error));
 }
@@ -322,7 +322,7 @@ void Checkpoint::remove() {
 void check_checkpoint(const CheckpointOptions& options, bool is_folder) {
   std::error_code ignored;  // what cannot be made cannot be written to either
   if (is_folder) std::filesystem::create_directory(options.file, ignored);
-  const std::string file = is_folder ? CheckpointParts::manifest(options.file) : options.file;
+  const std::string file = is_folder ? CheckpointSegments::manifest(options.file) : options.file;
   const OutputFile probe(file, kCheckpointName, kUnfinished);
   if (options.resume || !std::filesystem::exists(file)) return;
   throw UsageError("the checkpoint is there already, expected --resume to continue from it, or another file",

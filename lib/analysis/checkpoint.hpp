@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/checkpoint_options.hpp"
-#include "analysis/checkpoint_parts.hpp"
+#include "analysis/checkpoint_segments.hpp"
 #include "answers/stage.hpp"
 #include "base/archive.hpp"
 #include "base/json.hpp"
@@ -20,9 +20,10 @@
 namespace coordreq {
 
 /// The state of an analysis in a file, so that it can go on after it was killed: of each stage that is
-/// finished what it has found, and of a fixed point that is under way its levels or sets.
+/// finished what it has found, and of the current fixed point its levels or sets.
 ///
-/// 1. The file appears whole or not at all, and an older one stays until then; it has checksums all over (see
+/// 1. The file appears whole or not at all, and an older one stays until then; it has checksums of everything
+/// (see
 ///    CheckpointWriter).
 /// 2. It belongs to one spec, one controller file and one version of the program, by their SHA-256; for
 ///    another it is refused. Nothing else has an influence on the result.
@@ -31,8 +32,9 @@ namespace coordreq {
 /// 4. Saving takes at most a tenth of the time, however long it takes. Where it fails, work goes on.
 /// 5. One process at a time has the file, from the construction of this object on.
 ///
-/// The checkpoint of several processes is a folder with a manifest and parts (see CheckpointParts), and they
-/// call all functions together. The first one has the manifest, decides when to save, and tells the user.
+/// The checkpoint of several processes is a folder with a manifest and segments (see CheckpointSegments), and
+/// they call all functions together. The first one has the manifest, decides when to save, and reports to the
+/// user.
 class Checkpoint : public StageStore {
  public:
   struct Listener {
@@ -49,7 +51,7 @@ class Checkpoint : public StageStore {
   ///   none of ours, or of something else
   Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener, Ranks* ranks = nullptr);
 
-  /// From now on the stage under way is this one. @returns this object
+  /// From now on the current stage is this one. @returns this object
   StageStore* enter(const std::string& stage);
   [[nodiscard]] Kept take(const Serialise& load) override;
   void finish(Serialise save) override;
@@ -68,7 +70,7 @@ class Checkpoint : public StageStore {
   class Loading;
   class Saving;
 
-  [[nodiscard]] bool is_first() const { return !parts_ || parts_->ranks().rank() == 0; }
+  [[nodiscard]] bool is_first() const { return !segments_ || segments_->ranks().rank() == 0; }
   [[nodiscard]] bool take_or_make();
   void make_first();
   void open();
@@ -77,10 +79,10 @@ class Checkpoint : public StageStore {
   [[nodiscard]] bool next_record();
   [[nodiscard]] Json header() const;
   [[nodiscard]] bool is_due() const;
-  void save(const Record* under_way);
-  void write_records(CheckpointWriter* file, const Record* under_way);
-  void replace(const Record* under_way);
-  void replace_together(const Record* under_way);
+  void save(const Record* current);
+  void write_records(CheckpointWriter* file, const Record* current);
+  void replace(const Record* current);
+  void replace_together(const Record* current);
   void commit(OutputFile& output);
   [[noreturn]] void refuse(const std::string& reason) const;
 
@@ -92,16 +94,16 @@ class Checkpoint : public StageStore {
   };
 
   CheckpointOptions options_;
-  std::optional<CheckpointParts> parts_;
+  std::optional<CheckpointSegments> segments_;
   std::string file_;  ///< or manifest
   Identity identity_;
   Listener listener_;
   std::optional<FileLock> lock_;
   std::unique_ptr<CheckpointReader> reader_;  ///< while there is something to take up
-  std::size_t taken_ = 0;                     ///< records that have been read
+  std::size_t records_read_ = 0;              ///< records that have been read
   std::string next_stage_;                    ///< of the record that is to be read
   bool next_is_finished_ = false;
-  std::string stage_;  ///< under way
+  std::string stage_;  ///< the current one
   std::vector<Record> finished_;
   bool is_failing_ = false;                ///< the last one could not be saved
   Clock::time_point saved_;                ///< when that was last done, or begun

@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// Gives a state that is not discrete a grid with steps `factor` times as long, over the same domain and
+/// Gives a state that is not discrete a grid with steps `factor` times as long, on the same domain and
 /// through one of its points; a ring keeps its period and gets the whole number of points that is next to
 /// that. Nothing is done where not even two points would be left.
 void regrid(StateSpec& state, const Rational& factor);

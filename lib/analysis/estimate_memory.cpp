@@ -18,9 +18,10 @@ double estimate_memory(const Model& model, int threads) {
                   estimate_memory_of_rank(model, threads, memory_of_program(), {}));
 }
 
-double estimate_memory_of_rank(const Model& model, int threads, double before, const RowFractions& part) {
+double estimate_memory_of_rank(const Model& model, int threads, double before,
+                               const RowFractions& fractions) {
   const int team = all_threads(threads);
-  const EngineSizes sizes(model, part);
+  const EngineSizes sizes(model, fractions);
   double held = before + memory_of_threads(team);
   double most = 0, written = 0, longest = 0;
   const auto add = [&](const MemoryNeed& need) {

@@ -12,7 +12,7 @@
 namespace coordreq {
 
 /// About the most that this process will hold at a time if it analyses the problem now, in bytes: what it
-/// holds already, with the spec as it was read, and what the types that will hold the rest tell of
+/// holds already, with the spec as it was read, and what the types that will hold the rest report of
 /// themselves. More rather than less. Counterexamples of usual length and steps that fit 8 bits are taken for
 /// granted.
 /// @param threads that will work, none of which is there yet; 0: all usable processors
@@ -21,10 +21,10 @@ namespace coordreq {
 /// estimate_memory() of one of several processes that share the work.
 /// @param before bytes that the process holds before the work, see memory_of_program()
 [[nodiscard]] double estimate_memory_of_rank(const Model& model, int threads, double before,
-                                             const RowFractions& part);
+                                             const RowFractions& fractions);
 /// Memory of the MPI library, measured with Open MPI 4.1, in bytes.
 inline constexpr double kMpiBytes = 11.0 * 1024 * 1024;
-/// Memory of the buffers of a checkpoint, in bytes: a part of a list, and the chunks that zlib holds.
+/// Memory of the buffers of a checkpoint, in bytes: a segment of a list, and the chunks that zlib holds.
 inline constexpr double kCheckpointBytes = 4.5 * 1024 * 1024;
 
 /// @param needed bytes @param by_whom "on the fullest of 8 ranks, ", or nothing

@@ -46,9 +46,9 @@ double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// Thrown out of a loop that takes too long, of which about this part is done.
+/// Thrown out of a loop that takes too long, of which about this fraction is done.
 struct GivenUp {
-  double part;
+  double fraction;
 };
 
 /// Loops of the team are given up at that time, as long as this object lives.
@@ -89,7 +89,8 @@ Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
     result.rest = (processor_seconds() - begin - tables) / team.size();
   } catch (const GivenUp& loop) {
     result.is_given_up = true;
-    if (is_tables) result.tables = (processor_seconds() - since) / std::max(loop.part, 1e-6) / team.size();
+    if (is_tables)
+      result.tables = (processor_seconds() - since) / std::max(loop.fraction, 1e-6) / team.size();
   }
   return result;
 }

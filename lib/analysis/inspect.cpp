@@ -90,8 +90,8 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
                           ThreadTeam& team) {
   const ProblemSpec& spec = model.spec();
   const double before = memory_of_program() + kMpiBytes;
-  const auto need = [&](const RowFractions& part) {
-    return estimate_memory_of_rank(model, threads, before, part);
+  const auto need = [&](const RowFractions& fractions) {
+    return estimate_memory_of_rank(model, threads, before, fractions);
   };
   const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {
     if (limit) check_memory_limit(spec, needed, static_cast<double>(*limit), by_whom);
@@ -105,12 +105,12 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
   FullestRank fullest;
   double most = 0;
   for (const RankRows& rows : rows_of_ranks(answers.context, ranks)) {
-    const double needed = need({.held = static_cast<double>(rows.own + rows.ghosts) / all,
-                                .own = static_cast<double>(rows.own) / all,
+    const double needed = need({.held = static_cast<double>(rows.owned + rows.ghosts) / all,
+                                .own = static_cast<double>(rows.owned) / all,
                                 .slices = rows.slices});
     if (needed <= most) continue;
     most = needed;
-    fullest = {.local_rows = rows.own, .ghost_rows = rows.ghosts};
+    fullest = {.local_rows = rows.owned, .ghost_rows = rows.ghosts};
   }
   check(most, limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
   fullest.memory_bytes = to_bytes(most);

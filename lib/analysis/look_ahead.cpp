@@ -22,7 +22,7 @@ struct Run {
 };
 using CellBox = std::vector<Run>;  ///< [state]
 
-/// Values of all slots over boxes of cells. Boxes are closed, and hold the errors of measurement.
+/// Values of all slots on boxes of cells. Boxes are closed, and hold the errors of measurement.
 class Slots {
  public:
   Slots(const SystemSpec& spec, const UniformGrid& grid) : grid_(grid) {
@@ -76,7 +76,7 @@ class Halving {
   Halving(const UniformGrid& grid, std::int64_t boxes) : grid_(grid), left_(boxes) {}
 
   /// Whether a cell is what is looked for. @param may_hold whether a box may hold such a cell
-  /// @param is_one asked of single cells @param slots those along which boxes are halved
+  /// @param is_one called with single cells @param slots those along which boxes are halved
   End search(const std::vector<std::uint32_t>& slots, const std::function<bool(const CellBox&)>& may_hold,
              const std::function<bool(const CellBox&)>& is_one) {
     std::vector<CellBox> open(1);
@@ -101,7 +101,7 @@ class Halving {
   }
 
  private:
-  /// The state with most indices among those asked about; none if all have one.
+  /// The state with most indices among those given; none if all have one.
   static std::size_t longest(const CellBox& box, const std::vector<std::uint32_t>& slots) {
     std::size_t found = box.size();
     std::int64_t most = 0;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostCorners = 128;
 constexpr std::size_t kBetween = 16;
-constexpr double kMotionTolerance = 1e-7;  // six digits are shown
+constexpr double kMotionTolerance = 1e-7;  // six digits are displayed
 /// Sub-steps of all solutions: some hundred each, two thousand where they are stiff.
 constexpr std::int64_t kMostTried = 300'000;
 
@@ -95,9 +95,9 @@ class Starts {
 };
 
 /// Ends of solutions after a period, of all states.
-class Ways {
+class Solutions {
  public:
-  explicit Ways(const SystemSpec& spec) {
+  explicit Solutions(const SystemSpec& spec) {
     if (spec.dynamics.time == Time::discrete) {
       for (const Program& equation : spec.dynamics.equations) maps_.emplace_back(equation);
       return;
@@ -108,7 +108,7 @@ class Ways {
   }
 
   /// Whether so much was done that no more solutions are followed.
-  [[nodiscard]] bool are_over() const { return flow_ && flow_->tried() > kMostTried; }
+  [[nodiscard]] bool is_exhausted() const { return flow_ && flow_->tried() > kMostTried; }
 
   std::optional<std::vector<double>> end(const std::vector<double>& slots) {
     if (flow_) return flow_->after_period(slots);
@@ -150,15 +150,15 @@ double six_digits(double value) {
 
 Motion sample_motion(const SystemSpec& spec) {
   Starts starts(spec);
-  Ways ways(spec);
+  Solutions solutions(spec);
   Jumps jumps(spec);
   Motion result;
   std::vector<StateMotion>& all = result.states;
   all.resize(spec.states.size());
   for (std::size_t k = 0; k < starts.count(); ++k) {
     const std::vector<double> begin = starts.next();
-    ++(ways.are_over() ? result.left_out : result.solutions);
-    const auto end = ways.are_over() ? std::nullopt : ways.end(begin);
+    ++(solutions.is_exhausted() ? result.left_out : result.solutions);
+    const auto end = solutions.is_exhausted() ? std::nullopt : solutions.end(begin);
     const auto add = [&](std::size_t i, double next) {
       const double moved = std::fabs(next - begin[i]);
       if (std::isfinite(moved)) all[i].amount = std::max(all[i].amount, moved);

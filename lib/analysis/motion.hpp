@@ -26,7 +26,7 @@ struct Motion {
 /// spec; of one with an update, how far it jumps; 0 for one that a memory keeps. Tried at corners of the
 /// domain with the ends of all inputs and disturbances, all corners if they are few, and at points between: a
 /// fixed number of solutions, followed without a guarantee, so the greatest may be larger. Where a solution
-/// is undefined it is passed over.
+/// is undefined it is skipped.
 [[nodiscard]] Motion sample_motion(const SystemSpec& spec);
 
 /// A list of `state`, `amount`, `cells` and `share`, to six digits.

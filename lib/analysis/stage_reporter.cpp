@@ -12,16 +12,17 @@ constexpr std::chrono::milliseconds kPause{50};
 
 /// `fill`, with the bytes that it fills counted.
 FillArray counting(FillArray fill, std::uint64_t size, std::atomic<std::uint64_t>& written) {
-  return [own = std::move(fill), size, &written](std::uint64_t begin, std::uint64_t count, void* out) {
-    own(begin, count, out);
-    written.fetch_add(count * size, std::memory_order_relaxed);
-  };
+  return
+      [fill_elements = std::move(fill), size, &written](std::uint64_t begin, std::uint64_t count, void* out) {
+        fill_elements(begin, count, out);
+        written.fetch_add(count * size, std::memory_order_relaxed);
+      };
 }
 
 }  // namespace
 
-StageReporter::StageReporter(std::function<void(const Progress&)> tell, ThreadTeam& team)
-    : report_(std::move(tell)), team_(team) {
+StageReporter::StageReporter(std::function<void(const Progress&)> report, ThreadTeam& team)
+    : report_(std::move(report)), team_(team) {
   if (!report_) return;
   team_.set_watch([this](std::int64_t done, std::int64_t count) { on_loop(done, count); });
 }
@@ -36,8 +37,8 @@ void StageReporter::enter(const std::string& stage) {
   report_now();
 }
 
-void StageReporter::enter_part(const std::string& part) {
-  progress_ = {.stage = progress_.stage, .part = part, .has_temporary = progress_.has_temporary};
+void StageReporter::enter_substage(const std::string& substage) {
+  progress_ = {.stage = progress_.stage, .substage = substage, .has_temporary = progress_.has_temporary};
   report_now();
 }
 
@@ -82,7 +83,7 @@ void StageReporter::watch_writing(const ProblemSpec& spec, FieldValues& values) 
     for (const std::uint64_t length : *shape) size *= length;
     bytes += size;
   }
-  enter_part("");
+  enter_substage("");
   to_write_ = bytes;
 }
 

@@ -15,21 +15,21 @@
 
 namespace coordreq {
 
-/// Puts together what is to be told of an analysis: its stages, the steps of fixed points, and loops of the
+/// Puts together the progress reports of an analysis: its stages, the steps of fixed points, and loops of the
 /// team, which it watches as long as it lives.
 class StageReporter {
  public:
-  /// @param tell may be empty; called at once for what begins or ends, else some twenty times a second
-  StageReporter(std::function<void(const Progress&)> tell, ThreadTeam& team);
+  /// @param report may be empty; called at once for what begins or ends, else some twenty times a second
+  StageReporter(std::function<void(const Progress&)> report, ThreadTeam& team);
   ~StageReporter();
   StageReporter(const StageReporter&) = delete;
   StageReporter& operator=(const StageReporter&) = delete;
 
   void enter(const std::string& stage);
-  void enter_part(const std::string& part);
+  void enter_substage(const std::string& substage);
   /// @param row_length cells in a row
   void step(const WaveStep& step, std::int64_t row_length);
-  /// Until told otherwise there may be a temporary file.
+  /// Until the next call there may be a temporary file.
   void set_temporary(bool has_temporary);
   /// The results file is complete.
   void set_written() { progress_.is_written = true; }

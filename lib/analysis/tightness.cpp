@@ -32,7 +32,7 @@ constexpr double kSampleSlack = 1e-9;
 constexpr std::size_t kTried = 6;
 constexpr std::int64_t kMoreEffort = 8;
 
-/// A place among `count`, far from those before.
+/// A number below `count`, far from those before.
 std::int64_t spread_out(std::int64_t k, double stride, std::int64_t count) {
   const double share = std::fmod(0.5 + static_cast<double>(k) * stride, 1.0);
   return std::min(count - 1, static_cast<std::int64_t>(share * static_cast<double>(count)));
@@ -44,14 +44,14 @@ std::vector<GridDimension> dimensions_of(const ProblemSpec& spec) {
   return all;
 }
 
-/// Where the true state can be in a cell; nothing on a seam, where these are two pieces.
+/// Where the true state can be in a cell; nothing on a seam, where these are two intervals.
 std::optional<std::vector<Interval>> boxes_of(const std::vector<GridDimension>& grid,
                                               const std::vector<std::int64_t>& cell) {
   std::vector<Interval> result;
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const std::vector<Piece> parts = pieces(grid[i], cell[i]);
-    if (parts.size() > 1) return std::nullopt;
-    result.push_back(enclose(parts.front().lower, parts.front().upper));
+    const std::vector<Piece> intervals = pieces(grid[i], cell[i]);
+    if (intervals.size() > 1) return std::nullopt;
+    result.push_back(enclose(intervals.front().lower, intervals.front().upper));
   }
   return result;
 }
@@ -141,7 +141,7 @@ std::vector<Remedy> remedies(const ProblemSpec& spec) {
   return all;
 }
 
-/// The mean excess of the widest posts of the sample with a remedy; nothing if it cannot be told of one, or
+/// The mean excess of the widest posts of the sample with a remedy; nothing if it is unknown for one, or
 /// the first, which is the widest, gets no better: more effort in vain costs more than all the rest.
 std::optional<double> excess_with(const ProblemSpec& spec, const Remedy& remedy,
                                   std::span<const Tightness::Post> posts) {
@@ -155,9 +155,9 @@ std::optional<double> excess_with(const ProblemSpec& spec, const Remedy& remedy,
     if (!boxes) return std::nullopt;
     const std::vector<Interval> slots = slots_of(copy, inputs, *boxes, post.input);
     double most = 0.0;
-    for (const auto& part :
+    for (const auto& box :
          remedy.halves_cells ? halves_of(copy, slots) : std::vector<std::vector<Interval>>{slots}) {
-      const std::optional<double> excess = excess_of(copy, part, post.state);
+      const std::optional<double> excess = excess_of(copy, box, post.state);
       if (!excess) return std::nullopt;
       most = std::max(most, *excess);
     }
@@ -210,24 +210,24 @@ std::optional<Tightness> find_tightness(const AnalysisContext& context) {
     const std::int64_t x = spread_out(k, kCellStride, abstraction.grid.cells());
     const std::int64_t u = spread_out(k, kInputStride, abstraction.inputs.count());
     std::vector<std::int64_t> cell(grid.size());
-    std::int64_t place = 0;
+    std::int64_t position = 0;
     for (std::int64_t rest = x, i = std::ssize(grid); i-- > 0;) {
       cell[at(i)] = rest % grid[at(i)].count;
       rest /= grid[at(i)].count;
-      place += cell[at(i)] * abstraction.grid.stride(abstraction.grid.dimension_of(at(i)));
+      position += cell[at(i)] * abstraction.grid.stride(abstraction.grid.dimension_of(at(i)));
     }
     const auto boxes = boxes_of(grid, cell);
     if (!boxes) continue;
-    const bool is_own = context.share == std::nullopt ||
-                        (place / abstraction.grid.row_length() >= context.share->own().begin &&
-                         place / abstraction.grid.row_length() < context.share->own().end);
+    const bool is_local = context.share == std::nullopt ||
+                          (position / abstraction.grid.row_length() >= context.share->local().begin &&
+                           position / abstraction.grid.row_length() < context.share->local().end);
     const std::vector<Interval> slots = slots_of(spec, abstraction.inputs, *boxes, u);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (grid[i].discrete || spec.dynamics.update(i) != nullptr) continue;
       posts.push_back({.state = i, .cell = cell, .input = u});
       excess.push_back(0);
-      if (!is_own) continue;
-      const IndexRange range = abstraction.raw(abstraction.grid.dimension_of(i), place, u);
+      if (!is_local) continue;
+      const IndexRange range = abstraction.raw(abstraction.grid.dimension_of(i), position, u);
       const std::optional<Interval> needed = samples.next(i, slots);
       if (!needed || is_cut_off(range)) continue;
       excess.back() = 1 + std::max<std::int64_t>(length_of(range) - cells_needed(grid[i], *needed), 0);

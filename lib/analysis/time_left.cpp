@@ -20,7 +20,7 @@ constexpr double kFarthest = 60;
 void TimeLeft::begin(const Progress& progress, double now) {
   *this = {};
   stage_ = progress.stage;
-  part_ = progress.part;
+  substage_ = progress.substage;
   all_ = progress.all;
   begin_ = now;
 }
@@ -29,7 +29,7 @@ void TimeLeft::update(const Progress& progress, double now) {
   REQUIRES(stage_.empty() || now >= now_);
   const bool is_sweep = progress.sweep > 0;
   const bool same_pass = is_sweep || (progress.all == all_ && progress.done >= done_);
-  if (progress.stage != stage_ || progress.part != part_ || progress.sweep < sweep_ || !same_pass ||
+  if (progress.stage != stage_ || progress.substage != substage_ || progress.sweep < sweep_ || !same_pass ||
       (is_sweep && sweep_ == 0)) {
     begin(progress, now);
   }

@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-/// Estimates how long the stage under way will still take, from what was done in it so far. Says nothing
+/// Estimates how long the current stage will still take, from what was done in it so far. Says nothing
 /// where that would be a guess.
 ///
 /// - A pass goes on at the rate it had.
@@ -18,7 +18,7 @@ class TimeLeft {
  public:
   /// @param now seconds on any clock. @pre never less than before
   void update(const Progress& progress, double now);
-  /// Seconds until the stage, or its part, is over.
+  /// Seconds until the stage, or its substage, ends.
   [[nodiscard]] std::optional<double> seconds() const { return left_; }
   /// Seconds since it began.
   [[nodiscard]] double elapsed() const { return now_ - begin_; }
@@ -31,13 +31,13 @@ class TimeLeft {
   [[nodiscard]] std::optional<double> rows_to_come(const Progress& progress) const;
 
   std::string stage_;
-  std::string part_;
+  std::string substage_;
   double begin_ = 0;
   double now_ = 0;
   std::int64_t sweep_ = 0;
   std::int64_t all_ = 0;
   std::int64_t done_ = 0;
-  std::int64_t visited_ = 0;           ///< in the sweep under way
+  std::int64_t visited_ = 0;           ///< in the current sweep
   std::int64_t visited_in_last_ = -1;  ///< in the one before; -1: there was none
   std::int64_t visited_before_ = 0;    ///< in all sweeps before
   std::optional<double> share_;

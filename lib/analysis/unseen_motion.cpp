@@ -30,7 +30,7 @@ constexpr std::int64_t kMostFollowed = 500;
 constexpr std::int64_t kMostSubSteps = 64;
 /// Joint inputs tried at a cell.
 constexpr std::int64_t kInputsOfCell = 8;
-/// Cells of a post that are looked at; larger ones are passed over.
+/// Cells of a post that are looked at; larger ones are skipped.
 constexpr std::int64_t kMostOfPost = 4096;
 constexpr double kGoldenRatio = 0.6180339887498949;
 constexpr double kPathTolerance = 1e-6;
@@ -114,10 +114,10 @@ class CellSearch {
           context_.spec.dynamics.update(grid_.state(i)) != nullptr ? 0 : middle - static_cast<double>(at_[i]);
       most = std::max(most, std::fabs(moved_[i]));
     }
-    parts_ = std::min(kMostSubSteps, static_cast<std::int64_t>(std::ceil(most)));
-    for (std::int64_t part = 1; part < parts_; ++part) {
+    substeps_ = std::min(kMostSubSteps, static_cast<std::int64_t>(std::ceil(most)));
+    for (std::int64_t substep = 1; substep < substeps_; ++substep) {
       ++work_.reads;
-      const double share = static_cast<double>(part) / static_cast<double>(parts_);
+      const double share = static_cast<double>(substep) / static_cast<double>(substeps_);
       if (is_outside([&](std::size_t i) { return static_cast<double>(at_[i]) + share * moved_[i]; }))
         return true;
     }
@@ -127,13 +127,13 @@ class CellSearch {
   /// Whether a point is in a cell of the domain, but not in S. @param real its real index in each dimension
   template <class Real>
   [[nodiscard]] bool is_outside(const Real& real) const {
-    std::int64_t place = 0;
+    std::int64_t cell = 0;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       const std::int64_t index = index_near(grid_[i], real(i));
       if (index < 0) return false;
-      place += index * grid_.stride(i);
+      cell += index * grid_.stride(i);
     }
-    return !context_.safe.test(place);
+    return !context_.safe.test(cell);
   }
 
   /// The pair is allowed, and its post is there and in what is kept.
@@ -163,12 +163,12 @@ class CellSearch {
   std::optional<Passage> follow(std::int64_t x, std::int64_t u) {
     ++work_.followed;
     const SystemSpec& spec = context_.spec;
-    SystemSpec part = spec;
-    const std::int64_t parts = std::min(kMostSubSteps, 2 * parts_);
-    part.dynamics.period /= static_cast<long>(parts);
+    SystemSpec divided = spec;
+    const std::int64_t substeps = std::min(kMostSubSteps, 2 * substeps_);
+    divided.dynamics.period /= static_cast<long>(substeps);
     std::vector<std::int32_t> moving(spec.states.size());
     std::iota(moving.begin(), moving.end(), 0);
-    PointFlow flow(part, moving, kPathTolerance);
+    PointFlow flow(divided, moving, kPathTolerance);
     std::vector<double> slots(spec.slot_count());
     for (std::size_t i = 0; i < grid_.size(); ++i)
       slots[spec.state_slot(grid_.state(i))] = nearest_double(grid_[i].point(grid_.index(x, i)));
@@ -183,11 +183,11 @@ class CellSearch {
                                  slots.begin() + static_cast<std::ptrdiff_t>(spec.states.size()));
     };
     Passage found{.begin = states(), .input = u};
-    for (std::int64_t k = 1; k <= parts; ++k) {
+    for (std::int64_t k = 1; k <= substeps; ++k) {
       const auto end = flow.after_period(slots);
       if (!end) return std::nullopt;
       std::copy(end->begin(), end->end(), slots.begin());
-      if (k == parts || found.is_unsafe || !is_outside([&](std::size_t i) {
+      if (k == substeps || found.is_unsafe || !is_outside([&](std::size_t i) {
             const double value = slots[spec.state_slot(grid_.state(i))];
             return (value - nearest_double(grid_[i].first)) / nearest_double(grid_[i].step);
           }))
@@ -209,7 +209,7 @@ class CellSearch {
   std::vector<std::int64_t> at_;      ///< [dimension] index of the cell that is looked at
   std::vector<std::int64_t> chosen_;  ///< [input] index of its value
   std::vector<double> moved_;         ///< [dimension] to the middle of the post
-  std::int64_t parts_ = 0;            ///< of the straight line
+  std::int64_t substeps_ = 0;         ///< of the straight line
   SearchWork work_;
 };
 
@@ -260,7 +260,7 @@ class PassageSearch {
   /// Cells that one thread takes at a time.
   static constexpr std::int64_t kCellsAtOnce = 64;
 
-  struct Place {
+  struct Probe {
     std::int64_t cell = 0;  ///< by its number in the order of the spec at first
     bool is_kept = false;
     std::int64_t input = 0;  ///< look()
@@ -276,19 +276,19 @@ class PassageSearch {
   }
 
   /// The k-th of all cells.
-  [[nodiscard]] std::int64_t place_of(std::int64_t k) const {
-    std::int64_t place = 0;
+  [[nodiscard]] std::int64_t cell_of(std::int64_t k) const {
+    std::int64_t cell = 0;
     for (std::size_t i = grid_.size(); i-- > 0; k /= grid_[i].count)
-      place += k % grid_[i].count * grid_.stride(i);
-    return place;
+      cell += k % grid_[i].count * grid_.stride(i);
+    return cell;
   }
 
-  /// round_ = the next places, looked at.
+  /// round_ = the next cells, looked at.
   void look_at(std::int64_t size) {
     round_.clear();
     round_.resize(static_cast<std::size_t>(size));
-    for (Place& place : round_) {
-      place.cell = number_;
+    for (Probe& probe : round_) {
+      probe.cell = number_;
       number_ = (number_ + far_) % grid_.points();
     }
     const auto each = [&](const auto& visit) {
@@ -296,17 +296,17 @@ class PassageSearch {
         for (std::int64_t k = range.begin; k < range.end; ++k) visit(round_[at(k)], worker);
       });
     };
-    each([this](Place& place, int) {
-      place.cell = place_of(place.cell);
-      place.is_kept = kept_.test(place.cell) && !(context_.over && context_.over->test(place.cell));
+    each([this](Probe& probe, int) {
+      probe.cell = cell_of(probe.cell);
+      probe.is_kept = kept_.test(probe.cell) && !(context_.terminal && context_.terminal->test(probe.cell));
     });
-    for (Place& place : round_) {
-      if (!place.is_kept) continue;
-      place.input = input_;
+    for (Probe& probe : round_) {
+      if (!probe.is_kept) continue;
+      probe.input = input_;
       input_ = (input_ + CellSearch::inputs_of_cell(choices_) * far_input_) % choices_;
     }
-    each([this](Place& place, int worker) {
-      if (place.is_kept) place.looked = workers_[at(worker)].look(place.cell, place.input, far_input_);
+    each([this](Probe& probe, int worker) {
+      if (probe.is_kept) probe.looked = workers_[at(worker)].look(probe.cell, probe.input, far_input_);
     });
   }
   [[nodiscard]] static bool is_small(std::int64_t size) { return size <= kLeastRound; }
@@ -321,7 +321,7 @@ class PassageSearch {
   std::int64_t number_ = 0;
   std::int64_t input_ = 0;
   std::deque<CellSearch> workers_;
-  std::vector<Place> round_;
+  std::vector<Probe> round_;
   SearchWork work_;
 };
 
@@ -347,7 +347,7 @@ std::string inputs_of(const Abstraction& abstraction, const SystemSpec& spec, st
 }
 
 /// "p1 moves by 10 m", of the state that moves by the most cells.
-std::string longest_way(const SystemSpec& spec, const Passage& passage) {
+std::string longest_motion(const SystemSpec& spec, const Passage& passage) {
   std::size_t longest = 0;
   double most = -1;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
@@ -382,7 +382,7 @@ Warnings advise_on_unseen_motion(const AnalysisContext& context, const CellSet& 
                    with_unit(nearest_double(spec.dynamics.period), spec.dynamics.unit),
                    values_of(spec, found->begin), inputs_of(*context.abstraction, spec, found->input),
                    found->is_unsafe ? "is not safe" : "passes cells outside the safe set",
-                   values_of(spec, found->there), longest_way(spec, *found))}};
+                   values_of(spec, found->there), longest_motion(spec, *found))}};
 }
 
 }  // namespace coordreq

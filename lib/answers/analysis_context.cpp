@@ -41,7 +41,7 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AbstractAgent>& agen
 /// rows held.
 std::vector<const CellSet*> safe_sets(const AnalysisContext& context) {
   std::vector<const CellSet*> sets{&context.safe};
-  if (context.over) sets.push_back(&*context.over);
+  if (context.terminal) sets.push_back(&*context.terminal);
   if (context.beyond) sets.push_back(&*context.beyond);
   return sets;
 }
@@ -56,14 +56,14 @@ std::vector<AbstractAgent> find_agents_alike(const AnalysisContext& context) {
 }
 
 /// Adds the cells of G, of a goal that ends the task, in some rows where S is known.
-void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, AnalysisContext& context) {
+void add_terminal(const std::vector<RowShare::Range>& runs, ThreadTeam& team, AnalysisContext& context) {
   const Abstraction& abstraction = *context.abstraction;
-  CellSet& over = *context.over;
+  CellSet& terminal = *context.terminal;
   add_cells_that_satisfy(*context.spec.goal, context.spec, abstraction.grid, abstraction.inputs, runs, team,
-                         over);
+                         terminal);
   for (const RowShare::Range run : runs) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
-      for (std::size_t w = 0; w < over.row(r).size(); ++w) over.row(r)[w] &= context.safe.row(r)[w];
+      for (std::size_t w = 0; w < terminal.row(r).size(); ++w) terminal.row(r)[w] &= context.safe.row(r)[w];
     }
   }
 }
@@ -77,8 +77,8 @@ TubeSets AnalysisContext::tubes() const {
 }
 
 std::int64_t AnalysisContext::count(const CellSet& set) const {
-  const RowShare::Range own = own_rows(shared_rows(), set.rows());
-  return sum_of_all(shared_rows(), set.count(own.begin, own.end));
+  const RowShare::Range local = local_rows(shared_rows(), set.rows());
+  return sum_of_all(shared_rows(), set.count(local.begin, local.end));
 }
 
 std::optional<RowSymmetry> AnalysisContext::symmetry(const std::vector<InputClass>& classes) const {
@@ -89,8 +89,9 @@ std::optional<RowSymmetry> AnalysisContext::symmetry(const std::vector<InputClas
   // Tiles of many rows are computed as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
   const bool is_any_in_tile =
-      tiles && tiles->rows() > 1 &&
-      std::ranges::any_of(dimensions, [&](const auto& own) { return std::ranges::any_of(own, is_in_tile); });
+      tiles && tiles->rows() > 1 && std::ranges::any_of(dimensions, [&](const auto& indices) {
+        return std::ranges::any_of(indices, is_in_tile);
+      });
   if (is_any_in_tile) return std::nullopt;
   return RowSymmetry(abstraction->grid, dimensions);
 }
@@ -101,13 +102,13 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   const std::optional<TubeLimits> limits = find_tube_limits(context.spec, abstraction, context.ranks);
   context.safe = CellSet(rows, row_length);
   if (limits) context.beyond = CellSet(rows, row_length);
-  if (context.spec.ends_at_goal()) context.over = CellSet(rows, row_length);
+  if (context.spec.ends_at_goal()) context.terminal = CellSet(rows, row_length);
   const auto find_safe = [&](const std::vector<RowShare::Range>& runs) {
     add_cells_that_satisfy(context.spec.safe, context.spec, abstraction.grid, abstraction.inputs, runs, team,
                            context.safe);
     if (limits)
       add_safe_beyond(*limits, context.spec, abstraction, context.safe, runs, team, *context.beyond);
-    if (context.over) add_over(runs, team, context);
+    if (context.terminal) add_terminal(runs, team, context);
   };
   // The engine has to know now that rows are shared; how they are cut may depend on the engine.
   const bool is_cut = context.share.has_value();
@@ -126,10 +127,10 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   if (context.ranks == nullptr && context.pairs.admissible() == nullptr)
     context.like_agents = find_agents_alike(context);
   context.safe_cells = context.count(context.safe);
-  if (context.tiles && context.over)
-    context.tiles_with_over =
-        context.tiles->refined(context.tiles->tables(), number_rows(*context.over, context.shared_rows()));
-  context.over_cells = context.over ? context.count(*context.over) : 0;
+  if (context.tiles && context.terminal)
+    context.tiles_with_terminal = context.tiles->refined(
+        context.tiles->tables(), number_rows(*context.terminal, context.shared_rows()));
+  context.terminal_cells = context.terminal ? context.count(*context.terminal) : 0;
   context.order.emplace(abstraction.grid);
 }
 

@@ -53,15 +53,15 @@ struct AnalysisContext {
   std::int64_t safe_cells = 0;  ///< |S|
   /// G of a goal that ends the task, a part of S: cells that count as T (contract, section 5). Nothing if no
   /// goal ends the task.
-  std::optional<CellSet> over;
-  std::int64_t over_cells = 0;  ///< |G|, 0 if there is none
+  std::optional<CellSet> terminal;
+  std::int64_t terminal_cells = 0;  ///< |G|, 0 if there is none
   PairRules pairs;
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
   std::optional<RowHull> hull;
   std::optional<Tiles> tiles;  ///< in which equal work is found; nothing where a sample has little of it
   Tiles::Numbers
-      tiles_with_over;  ///< [tile] equal numbers where the same cells count as T, too; empty if none do
+      tiles_with_terminal;  ///< [tile] equal numbers where the same cells count as T, too; empty if none do
   /// Agents that can be exchanged, in S too; two or more, or none. Of several processes none: on three
   /// vehicles it saved 7 % of the time of two processes and 12 % of eight, which then hold the rows of all
   /// orders.
@@ -73,14 +73,14 @@ struct AnalysisContext {
   /// Which process owns which rows, or null.
   [[nodiscard]] const RowShare* shared_rows() const { return share ? &*share : nullptr; }
   /// The cells that count as T, or null.
-  [[nodiscard]] const CellSet* over_or_null() const { return over ? &*over : nullptr; }
+  [[nodiscard]] const CellSet* terminal_or_null() const { return terminal ? &*terminal : nullptr; }
   /// Cells of a set in the rows of all processes. Together.
   [[nodiscard]] std::int64_t count(const CellSet& set) const;
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
   /// Equal work of an operator that depends on the tables, S, and G of a goal that ends the task.
   [[nodiscard]] EqualWork equal(const RowSymmetry* symmetry = nullptr) const {
-    return {equal_work(), tiles && over ? &tiles_with_over : nullptr, symmetry};
+    return {equal_work(), tiles && terminal ? &tiles_with_terminal : nullptr, symmetry};
   }
   /// The symmetry under which answers are the same, if the inputs of each class are chosen together; nothing
   /// if there is none.

@@ -64,10 +64,11 @@ struct ResultArray {
   [[nodiscard]] bool is_divided() const { return of_cell != 0 || lists != nullptr; }
 };
 
-/// A value that means a word; kLargestValue stands for the largest value of the type that the field has.
+/// A value with a meaning of its own; kLargestValue stands for the largest value of the type that the field
+/// has.
 struct FieldFlag {
   std::int64_t value = 0;
-  std::string word;
+  std::string meaning;
 };
 inline constexpr std::int64_t kLargestValue = std::numeric_limits<std::int64_t>::max();
 
@@ -79,11 +80,11 @@ struct FieldAttribute {
   std::string name;
   AttributeValue value;
   /// The analysis finds the value: `value` has the type alone, and of a list the length.
-  bool is_found = false;
+  bool is_computed = false;
 };
 
 /// The coordinates of an axis: none, so that it has a length alone; the numbers from `first` on; names; or
-/// grid points, which are asked for one by one, since there may be very many.
+/// grid points, which are requested one by one, since there may be very many.
 struct NoCoordinates {};
 struct Numbers {
   std::int32_t first = 0;
@@ -118,7 +119,8 @@ enum class FieldSection : std::uint8_t {
 };
 
 /// The meaning of a field at each cell. With the axis before those of the cells (none, /partition, or one
-/// that names modes, pairs, agents, ...) it tells every reader how to read, compare, show and draw the field.
+/// that names modes, pairs, agents, ...) it says how every reader has to read, compare, show and draw the
+/// field.
 enum class FieldKind : std::uint8_t {
   none,    ///< the field is not over cells: scales, sizes, lists, tables
   set,     ///< 0 or 1: the cell is in the set, or in that of an entry of the leading axis
@@ -138,23 +140,23 @@ struct FieldMap {
   /// For kinds without a title in the page: "Time to arrival".
   std::string title = {};
   /// Adds further members for the page, given the values that occur; may be empty.
-  std::function<void(const std::set<std::int32_t>& found, Json& head)> legend = {};
+  std::function<void(const std::set<std::int32_t>& values, Json& head)> legend = {};
 };
 
-/// How `query` shows a field at the cell asked for; a field without a name and words is not shown. Those over
+/// How `query` shows a field at a cell; a field without a name and a label is not shown. Those over
 /// /partition that are no steps of a policy, and those of other axes: sets as the names of the entries that
 /// hold, probabilities one for each entry.
 struct FieldQuery {
   std::string name = {};   ///< key in JSON: "arrival", "safe_modes"
-  std::string words = {};  ///< before it in the text: "time to the goal"
-  /// In the text, longer meanings of the words of flags, and of "0".
+  std::string label = {};  ///< before it in the text: "time to the goal"
+  /// In the text, longer meanings of flags, and of "0".
   std::map<std::string, std::string> meanings = {};
   std::string group = {};  ///< object in JSON that holds it with others, and its column in CSV: "coalition"
   /// In the text a section of its own, or of its group, under this heading.
   std::string heading = {};
   std::string attribute =
       {};  ///< an attribute, in steps, that its group has, too, and with which the heading begins
-  std::string entry = {};  ///< of sets: the word for an entry, "mode"; entries that hold are then counted
+  std::string entry = {};  ///< of sets: the term for an entry, "mode"; entries that hold are then counted
 };
 
 /// How commands show a field over cells; a command whose member is empty does not show it.
@@ -189,13 +191,13 @@ struct Field {
 };
 using Fields = std::vector<Field>;
 
-/// The values of a field of integers that mean a word.
+/// The values of a field of integers that have a meaning of their own.
 [[nodiscard]] std::vector<FieldFlag> flags_of(const Field& field);
-/// The word that a value means; "steps" or "number" if it means a number.
+/// The meaning of a value; "steps" or "number" if it means a number.
 [[nodiscard]] std::string status_of(const Field& field, std::int64_t value);
 /// The probability that an integer of a field of probabilities stands for.
 [[nodiscard]] double probability_of(std::int32_t bits);
-/// The value as a number; null if it means a word.
+/// The value as a number; null if it has another meaning.
 [[nodiscard]] Json value_json(const Field& field, std::int64_t value);
 
 /// The results of an analysis for the fields, by path. Scales with coordinates, and attributes that do not
@@ -203,7 +205,7 @@ using Fields = std::vector<Field>;
 struct FieldValues {
   struct Entry {
     ResultArray array;
-    std::map<std::string, AttributeValue> attributes = {};  ///< those with FieldAttribute::is_found
+    std::map<std::string, AttributeValue> attributes = {};  ///< those with FieldAttribute::is_computed
     std::string equals = {};  ///< the path of a field with the same elements; empty: none is known
   };
   std::map<std::string, Entry> entries;
@@ -224,6 +226,6 @@ template <class Value>
 
 /// Arrays of `length` elements each, of one type, one after the other.
 /// @throws std::invalid_argument if their types are not the same
-[[nodiscard]] ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> parts);
+[[nodiscard]] ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> arrays);
 
 }  // namespace coordreq

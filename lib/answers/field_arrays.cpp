@@ -41,8 +41,8 @@ FillArray fill_delays(const DelayLayers& layers, const LevelMap& collision_time,
                                                               void* out) {
     const auto entry = [connection_delay](std::int64_t delay) {
       const auto value = static_cast<std::int32_t>(delay);
-      const std::int32_t shown = connection_delay < 0 ? value : trigger_of(value, connection_delay);
-      return shown == kUnbounded ? std::numeric_limits<Integer>::max() : static_cast<Integer>(shown);
+      const std::int32_t displayed = connection_delay < 0 ? value : trigger_of(value, connection_delay);
+      return displayed == kUnbounded ? std::numeric_limits<Integer>::max() : static_cast<Integer>(displayed);
     };
     const Integer top = entry(layers.top_delay());
     layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
@@ -106,7 +106,7 @@ ResultArray cells_of(ElementType type, const DelayLayers& layers, const CellOrde
           .lists = lists};
 }
 
-/// Fills a stretch of one set.
+/// Fills a segment of one set.
 void fill_members(const CellSet& set, const CellOrder& order, std::uint64_t begin, std::uint64_t count,
                   std::uint8_t* out) {
   order.for_each_run(
@@ -188,7 +188,7 @@ ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& 
               const std::uint64_t here = std::min(count, cells - begin % cells);
               order.for_each_run(static_cast<std::int64_t>(begin % cells), static_cast<std::int64_t>(here),
                                  [&](const CellOrder::Run& run) {
-                                   const float* source = freedom.data() + order.place(run);
+                                   const float* source = freedom.data() + order.position(run);
                                    const std::int64_t step = order.step(run);
                                    for (std::int64_t i = 0; i < run.count; ++i)
                                      target[run.offset + i] = source[i * step];

@@ -20,7 +20,7 @@ namespace coordreq {
 /// uint8 [cells], 1 for members of K: cells that are never lost.
 [[nodiscard]] ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order);
 
-/// Writes kOutsideSafe for the cells of a stretch that are not in S. Integer: std::int16_t,
+/// Writes kOutsideSafe for the cells of a segment that are not in S. Integer: std::int16_t,
 /// std::int32_t.
 template <class Integer>
 void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::uint64_t begin,

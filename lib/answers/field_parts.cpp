@@ -108,8 +108,8 @@ void add_bits(Fields& fields, const std::string& path, FieldSection section, con
 std::vector<std::int32_t> inputs_of(const SystemSpec& spec, const std::vector<std::int32_t>& agents) {
   std::vector<std::int32_t> inputs;
   for (const std::int32_t agent : agents) {
-    const std::vector<std::int32_t>& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
-    inputs.insert(inputs.end(), own.begin(), own.end());
+    const std::vector<std::int32_t>& agent_inputs = spec.agents[static_cast<std::size_t>(agent)].inputs;
+    inputs.insert(inputs.end(), agent_inputs.begin(), agent_inputs.end());
   }
   std::sort(inputs.begin(), inputs.end());
   return inputs;
@@ -138,7 +138,7 @@ std::vector<FieldFlag> flags_of(const Field& field) {
 std::string status_of(const Field& field, std::int64_t value) {
   for (const FieldFlag& flag : flags_of(field)) {
     const bool is_largest = flag.value == kLargestValue && value == std::numeric_limits<std::int32_t>::max();
-    if (flag.value == value || is_largest) return flag.word;
+    if (flag.value == value || is_largest) return flag.meaning;
   }
   return field.kind == FieldKind::steps ? "steps" : "number";
 }
@@ -153,18 +153,18 @@ Json value_json(const Field& field, std::int64_t value) {
   return status == "steps" || status == "number" ? Json(value) : Json();
 }
 
-ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> parts) {
-  const ElementType type = parts.empty() ? ElementType::int16 : parts.front().type;
-  for (const ResultArray& part : parts) {
-    if (part.type != type) throw std::invalid_argument("arrays of one field with different element types");
+ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> arrays) {
+  const ElementType type = arrays.empty() ? ElementType::int16 : arrays.front().type;
+  for (const ResultArray& array : arrays) {
+    if (array.type != type) throw std::invalid_argument("arrays of one field with different element types");
   }
   return {type,
-          [length, parts = std::move(parts), type](std::uint64_t begin, std::uint64_t count, void* out) {
+          [length, arrays = std::move(arrays), type](std::uint64_t begin, std::uint64_t count, void* out) {
             auto* target = static_cast<std::byte*>(out);
             while (count > 0) {
               const std::uint64_t first = begin % length;
               const std::uint64_t here = std::min(count, length - first);
-              parts[begin / length].fill(first, here, target);
+              arrays[begin / length].fill(first, here, target);
               begin += here;
               count -= here;
               target += here * element_size(type);

@@ -30,7 +30,7 @@ Fields result_fields(const ProblemSpec& spec) {
   return table;
 }
 
-FieldValues found_values(const Answers& answers, ThreadTeam& team) {
+FieldValues computed_values(const Answers& answers, ThreadTeam& team) {
   FieldValues values;
   for (const Answer& answer : all_answers()) answer.fill(answers, team, values);
   return values;

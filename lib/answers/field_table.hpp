@@ -20,7 +20,7 @@ namespace coordreq {
 [[nodiscard]] Fields answer_fields(const ProblemSpec& spec);
 
 /// The values of all fields. The arrays refer to the answers, which must outlive the writing.
-[[nodiscard]] FieldValues found_values(const Answers& answers, ThreadTeam& team);
+[[nodiscard]] FieldValues computed_values(const Answers& answers, ThreadTeam& team);
 
 /// The lengths of the axes of a field. @param scales lengths by path. Nothing if one of the axes is not
 /// there.

@@ -53,7 +53,7 @@ void save_levels(Archive& archive, const RowShare* share, const NumberRows& stat
 }  // namespace
 
 void serialise_rows(Archive& archive, const RowShare* share, const NumberRows& rows) {
-  archive.grid_rows(rows, own_rows(share, rows.rows), held_rows(share, rows.rows));
+  archive.grid_rows(rows, local_rows(share, rows.rows), held_rows(share, rows.rows));
 }
 
 std::function<void(const WaveStep&)> step_of(const StageWork& work, const RowEngine& engine,
@@ -71,7 +71,8 @@ void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bou
       []<class Level>(const LevelRows<Level>&) { return static_cast<std::uint8_t>(sizeof(Level)); });
   archive.number(width);
   if (!archive.is_loading())
-    return levels.visit([&](const auto& own) { serialise_rows(archive, own.share(), rows_of(own)); });
+    return levels.visit(
+        [&](const auto& stored) { serialise_rows(archive, stored.share(), rows_of(stored)); });
   archive.expect(width == 1 || width == 2 || width == 4, "levels have another width");
   levels = width == 1   ? load_levels<std::uint8_t>(archive, engine, bounds)
            : width == 2 ? load_levels<std::uint16_t>(archive, engine, bounds)
@@ -81,27 +82,27 @@ void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bou
 void serialise(Archive& archive, const RowShare* share, const CellSet& within, CellSet& set) {
   REQUIRES(within.words().size() == set.words().size());
   serialise_rows(archive, share, rows_of(set));
-  bool is_part = true;
+  bool is_subset = true;
   for (std::size_t w = 0; archive.is_loading() && w < set.words().size(); ++w)
-    is_part = is_part && (set.words()[w] & ~within.words()[w]) == 0;
-  archive.expect(is_part, "a set has cells that it cannot have");
+    is_subset = is_subset && (set.words()[w] & ~within.words()[w]) == 0;
+  archive.expect(is_subset, "a set has cells that it cannot have");
 }
 
 void find_or_take_levels(const StageWork& work, const RowEngine& engine, const LevelBounds& bounds,
-                         LevelMap& place, const std::function<LevelMap(const WaveWatch&)>& find) {
-  const auto load = [&](Archive& archive) { serialise(archive, engine, bounds, place); };
+                         LevelMap& target, const std::function<LevelMap(const WaveWatch&)>& find) {
+  const auto load = [&](Archive& archive) { serialise(archive, engine, bounds, target); };
   const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
   if (kept != StageStore::Kept::finished) {
-    LevelMap start = std::move(place);
+    LevelMap start = std::move(target);
     const SaveState save = [&engine](Archive& archive, std::span<const NumberRows> state) {
       save_levels(archive, engine.share(), state.front());
     };
-    place = find({.step = step_of(work, engine, save),
-                  .resumed = kept == StageStore::Kept::unfinished ? &start : nullptr});
+    target = find({.step = step_of(work, engine, save),
+                   .resumed = kept == StageStore::Kept::unfinished ? &start : nullptr});
   }
   if (work.store != nullptr)
     work.store->finish(
-        [&engine, bounds, &place](Archive& archive) { serialise(archive, engine, bounds, place); });
+        [&engine, bounds, &target](Archive& archive) { serialise(archive, engine, bounds, target); });
 }
 
 }  // namespace coordreq

@@ -10,7 +10,7 @@
 #include "engine/row_engine.hpp"
 #include "engine/wave_watch.hpp"
 
-// Levels and sets of a fixed point, finished or under way, that are kept and taken up again.
+// Levels and sets of a fixed point, finished or under way, that are kept and resumed.
 namespace coordreq {
 
 /// Writes the state of a step to an archive.
@@ -35,8 +35,8 @@ void serialise(Archive& archive, const RowShare* share, const CellSet& within, C
 
 /// Finds the levels of a stage: takes kept levels if they are finished, else lets `find` go on from kept ones
 /// or begin at the start.
-/// @param place where the levels are stored; it keeps its address
+/// @param target where the levels are stored; it keeps its address
 void find_or_take_levels(const StageWork& work, const RowEngine& engine, const LevelBounds& bounds,
-                         LevelMap& place, const std::function<LevelMap(const WaveWatch& watch)>& find);
+                         LevelMap& target, const std::function<LevelMap(const WaveWatch& watch)>& find);
 
 }  // namespace coordreq

@@ -6,10 +6,10 @@
 
 namespace coordreq {
 
-/// The value of the key that was asked for last: while the key stays the same the value is made once, and
+/// The value of the key that was requested last: while the key stays the same the value is made once, and
 /// there is never more than one. Safe to ask from several threads at once; they wait for each other.
 ///
-/// Why: arrays are written in stretches, but lists of layers and tables written out are made as a whole, and
+/// Why: arrays are written in segments, but lists of layers and tables written out are made as a whole, and
 /// are large.
 template <class Key, class Value>
 class LastValueCache {

@@ -17,10 +17,10 @@ constexpr std::int64_t kLooksAtBin = 8;
 /// If a rank has at least so many units, no unit is cut: equal units are found among whole ones alone.
 constexpr std::int64_t kUnitsOfRank = 8;
 
-std::int64_t bin_rows_of(std::int64_t rows, std::int64_t unit, int parts) {
-  const std::int64_t most = kBinsOfRank * parts;
+std::int64_t bin_rows_of(std::int64_t rows, std::int64_t unit, int ranks) {
+  const std::int64_t most = kBinsOfRank * ranks;
   const std::int64_t bin = (rows + most - 1) / most;
-  return unit * kUnitsOfRank * parts <= rows ? (bin + unit - 1) / unit * unit : bin;
+  return unit * kUnitsOfRank * ranks <= rows ? (bin + unit - 1) / unit * unit : bin;
 }
 
 /// Finds rows in which S has no cell, by intervals around the centres of a row; may miss some.
@@ -61,20 +61,20 @@ std::int64_t least_unit(const Model& model) {
 
 /// @param unit_rows rows of a unit, which is not cut if there are enough units
 std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const UniformGrid& grid,
-                                           std::int64_t unit_rows, int parts) {
-  const std::int64_t rows = grid.rows(), bin = bin_rows_of(rows, unit_rows, parts);
+                                           std::int64_t unit_rows, int ranks) {
+  const std::int64_t rows = grid.rows(), bin = bin_rows_of(rows, unit_rows, ranks);
   SafeRows safe_rows(spec, grid);
   std::vector<std::int64_t> weights;
   for (std::int64_t begin = 0; begin < rows; begin += bin) {
-    const std::int64_t own = std::min(bin, rows - begin), looks = std::min(own, kLooksAtBin);
+    const std::int64_t bin_rows = std::min(bin, rows - begin), looks = std::min(bin_rows, kLooksAtBin);
     std::int64_t safe = 0;
     for (std::int64_t look = 0; look < looks; ++look) {
-      const std::int64_t row = (2 * look + 1) * own / (2 * looks) + begin;
+      const std::int64_t row = (2 * look + 1) * bin_rows / (2 * looks) + begin;
       safe += safe_rows.may_hold(row) ? 1 : 0;
     }
-    weights.push_back(safe * own / looks);
+    weights.push_back(safe * bin_rows / looks);
   }
-  return cut_rows(weights, bin, rows, parts);
+  return cut_rows(weights, bin, rows, ranks);
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ bool is_cut_before_tables(const Model& model) {
       model.shapes(), [&](const TableShape& shape) { return shape.is_by_cells(model.shapes().size()); });
 }
 
-std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine, int parts) {
+std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine, int ranks) {
   return is_cut_before_tables(model)
-             ? cut_by_safe_rows(model.spec(), model.grid(), least_unit(model), parts)
-             : cut_by_safe_rows(model.spec(), engine->grid(), engine->unit_rows(), parts);
+             ? cut_by_safe_rows(model.spec(), model.grid(), least_unit(model), ranks)
+             : cut_by_safe_rows(model.spec(), engine->grid(), engine->unit_rows(), ranks);
 }
 
 }  // namespace coordreq

@@ -18,6 +18,6 @@ namespace coordreq {
 /// @param engine may be null where is_cut_before_tables()
 /// @returns parts + 1 ascending numbers, as cut_rows()
 [[nodiscard]] std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine,
-                                                        int parts);
+                                                        int ranks);
 
 }  // namespace coordreq

@@ -16,8 +16,8 @@ void share_context(AnalysisContext& context, bool is_cut,
   RowShare& share = *context.share;
   if (!is_cut)
     share = {*context.ranks, cut_into_shares(context.model, &*context.engine, context.ranks->count())};
-  find_safe({share.own()});
-  share.set_ghosts(context.hull->rows_met(&context.safe, share.own()));
+  find_safe({share.local()});
+  share.set_ghosts(context.hull->rows_met(&context.safe, share.local()));
   find_safe(ghost_rows(share));
   context.engine->take_tube_sets();
 }
@@ -33,14 +33,14 @@ std::vector<RankRows> rows_of_ranks(const AnalysisContext& context, int ranks) {
   const std::vector<double> slices = bytes_of_slices(engine);
   std::vector<RankRows> result;
   for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
-    const RowShare::Range own{bounds[r], bounds[r + 1]};
-    std::vector<std::uint8_t> is_needed = hull.rows_met(nullptr, own);
-    std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{0});
+    const RowShare::Range local{bounds[r], bounds[r + 1]};
+    std::vector<std::uint8_t> is_needed = hull.rows_met(nullptr, local);
+    std::fill(is_needed.begin() + local.begin, is_needed.begin() + local.end, std::uint8_t{0});
     RankRows& rows = result.emplace_back(
-        RankRows{own.end - own.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});
+        RankRows{local.end - local.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});
     for (std::size_t t = 0; t < slices.size(); ++t) {
       if (context.abstraction->tables[t].is_by_cells(grid.size()))
-        rows.slices[t] *= static_cast<double>(rows.own) / static_cast<double>(grid.rows());
+        rows.slices[t] *= static_cast<double>(rows.owned) / static_cast<double>(grid.rows());
     }
   }
   return result;

@@ -21,7 +21,7 @@ void share_context(AnalysisContext& context, bool is_cut,
 
 /// Rows that a process would own, and ghost rows that it would hold.
 struct RankRows {
-  std::int64_t own = 0;
+  std::int64_t owned = 0;
   std::int64_t ghosts = 0;
   std::vector<double> slices = {};  ///< RowFractions::slices
 };

@@ -21,7 +21,7 @@ struct NumberRows {
   std::int64_t row_length = 0;  ///< numbers
   NumberKind kind = NumberKind::unsigned_integer;
   std::int64_t number_bytes = 1;
-  const std::uint32_t* places = nullptr;  ///< [row] in which place it stands; null: each in its own
+  const std::uint32_t* places = nullptr;  ///< [row] its number in memory; null: the row itself
 
   [[nodiscard]] std::byte* row(std::int64_t r) const {
     return first + (places == nullptr ? r : std::int64_t{places[r]}) * stride;
@@ -29,7 +29,7 @@ struct NumberRows {
   [[nodiscard]] std::int64_t row_bytes() const { return row_length * number_bytes; }
 
   /// The rows [begin, end).
-  [[nodiscard]] NumberRows part(std::int64_t begin, std::int64_t end) const {
+  [[nodiscard]] NumberRows range(std::int64_t begin, std::int64_t end) const {
     NumberRows result = *this;
     result.rows = end - begin;
     if (places == nullptr) {
@@ -52,8 +52,8 @@ template <class Number>
 template <class Number>
 [[nodiscard]] NumberRows number_rows(const Number* first, std::int64_t stride, std::int64_t rows,
                                      std::int64_t row_length) {
-  void* place = const_cast<Number*>(first);
-  return {static_cast<std::byte*>(place),
+  void* address = const_cast<Number*>(first);
+  return {static_cast<std::byte*>(address),
           static_cast<std::ptrdiff_t>(stride) * static_cast<std::ptrdiff_t>(sizeof(Number)),
           rows,
           row_length,
@@ -76,8 +76,9 @@ class Archive {
   /// Saves the numbers, or loads them to where they stand.
   virtual void rows(const NumberRows& rows) = 0;
   /// rows() for rows of a grid that several processes may have divided between them.
-  /// @param own the rows that this process answers for @param held the rows that it has to know, ascending
-  virtual void grid_rows(const NumberRows& all, ThreadTeam::Range /*own*/,
+  /// @param local_rows the rows that this process answers for @param held the rows that it has to know,
+  /// ascending
+  virtual void grid_rows(const NumberRows& all, ThreadTeam::Range /*local_rows*/,
                          std::span<const ThreadTeam::Range> /*held*/) {
     rows(all);
   }

@@ -36,9 +36,9 @@ std::string_view trimmed(std::string_view text) {
 std::vector<std::string> csv_columns(std::string_view line, const RefuseLine& refuse) {
   line = trimmed(line);
   if (line.find(',') == std::string_view::npos) {
-    for (const auto& [sign, words] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
+    for (const auto& [sign, sign_name] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
       if (line.find(sign) == std::string_view::npos) continue;
-      refuse(std::string("expected commas between columns and points in numbers, found ") + words);
+      refuse(std::string("expected commas between columns and points in numbers, found ") + sign_name);
     }
   }
   std::vector<std::string> names = fields_of(line, refuse);

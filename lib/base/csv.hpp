@@ -11,7 +11,7 @@ namespace coordreq {
 /// `text` without blanks at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// Throws the error of whoever reads the table, with the place.
+/// Throws the error of whoever reads the table, with the location.
 using RefuseLine = std::function<void(const std::string& what)>;
 
 /// The names of the columns in the first line of a table as CSV (RFC 4180), without blanks around them.

@@ -7,7 +7,7 @@
 
 namespace coordreq {
 
-/// Exit codes of the program; part of the contract with users.
+/// Exit codes of the program; fixed by the contract with users.
 enum class ExitCode : int {
   success = 0,
   requirement_failed = 1,
@@ -33,7 +33,8 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// A problem spec that breaks the contract; `where` is a JSON pointer, perhaps with a place in an expression.
+/// A problem spec that breaks the contract; `where` is a JSON pointer, perhaps with a position in an
+/// expression.
 class SpecError : public Error {
  public:
   explicit SpecError(std::string_view what, std::string_view where = {})
@@ -47,7 +48,7 @@ class ResultsError : public Error {
       : Error(ExitCode::invalid_input, what, where) {}
 };
 
-/// A file with a controller that does not fit or is damaged; `where` is its path with the place in it.
+/// A file with a controller that does not fit or is damaged; `where` is its path with the location in it.
 class ControllerError : public Error {
  public:
   explicit ControllerError(std::string_view what, std::string_view where = {})

@@ -29,7 +29,7 @@ struct FastPaths {
   bool face_flow = true;         ///< bounds by the derivative on faces of the box
   bool turning_products = true;  ///< long products of sensitivities in a turning frame
   bool halved_boxes = true;      ///< initial boxes in halves, where solutions come less close to the ends
-  bool divided_boxes = true;     ///< initial boxes in ever smaller parts, as far as `effort` goes
+  bool divided_boxes = true;     ///< initial boxes in ever smaller subboxes, as far as `effort` goes
 };
 
 /// A switch with its name.

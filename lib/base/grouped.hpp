@@ -21,10 +21,10 @@ namespace coordreq {
 }
 
 /// "a, b and c".
-[[nodiscard]] inline std::string list_text(const std::vector<std::string>& parts) {
+[[nodiscard]] inline std::string list_text(const std::vector<std::string>& items) {
   std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  for (std::size_t i = 0; i < items.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == items.size() ? " and " : ", ") + items[i];
   return text;
 }
 

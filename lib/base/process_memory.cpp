@@ -15,8 +15,8 @@ namespace {
 
 /// Parts of the program and its libraries come into memory only when they are used: of their code any work
 /// needs about so much of the whole, and they keep something for themselves. Measured.
-constexpr double kUsedCode = 0.72, kOwnBytes = 1.5 * 1024 * 1024;
-/// Memory of a thread: the part of its stack that is used, and the reserve of the allocator.
+constexpr double kUsedCode = 0.72, kProgramBytes = 1.5 * 1024 * 1024;
+/// Memory of a thread: the used fraction of its stack, and the reserve of the allocator.
 constexpr double kThreadBytes = 108.0 * 1024;
 
 std::optional<rlimit> limit_of_data() {
@@ -32,7 +32,7 @@ void set_limit_of_data(rlim_t wanted) {
   static_cast<void>(setrlimit(RLIMIT_DATA, &*limit));
 }
 
-/// The parts of files that are in memory, or will be.
+/// The pages of files that are in memory, or will be.
 double bytes_of_files() {
   const auto code = static_cast<double>(status_bytes("VmExe") + status_bytes("VmLib"));
   return std::max(static_cast<double>(status_bytes("RssFile")), kUsedCode * code);
@@ -47,7 +47,7 @@ std::int64_t untouched_bytes() {
 }  // namespace
 
 double memory_of_program() {
-  return static_cast<double>(status_bytes("RssAnon")) + bytes_of_files() + kOwnBytes;
+  return static_cast<double>(status_bytes("RssAnon")) + bytes_of_files() + kProgramBytes;
 }
 
 int all_threads(int threads) {

@@ -12,12 +12,12 @@ namespace coordreq {
 /// Processors that this process may use, at least 1: those of its affinity, and no more than the quota of its
 /// control group and of those around it, rounded up (versions 1 and 2).
 [[nodiscard]] int usable_processors();
-/// The quota of the control groups that `own`, the text of /proc/self/cgroup, names, and of those around
+/// The quota of the control groups that `groups`, the text of /proc/self/cgroup, names, and of those around
 /// them, in processors; infinite if there is none. @param root where the control groups are mounted,
 /// /sys/fs/cgroup
-[[nodiscard]] double processor_quota(const std::string& own, const std::string& root);
+[[nodiscard]] double processor_quota(const std::string& groups, const std::string& root);
 
-/// Memory that this process holds now, with the parts of the program and its libraries that any work still
+/// Memory that this process holds now, with the pages of the program and its libraries that any work still
 /// brings into memory, in bytes.
 [[nodiscard]] double memory_of_program();
 /// The number of threads that `threads` stands for. @param threads 0: all usable processors
@@ -26,7 +26,7 @@ namespace coordreq {
 /// @param threads 0: all usable processors
 [[nodiscard]] double memory_of_threads(int threads);
 
-/// 1536 -> "1.5 KiB", as memory is told in errors.
+/// 1536 -> "1.5 KiB", as errors print memory.
 [[nodiscard]] std::string byte_text(double bytes);
 
 /// @param subject with its verb: "25 cells need" @param needed bytes, of the whole process
@@ -38,7 +38,7 @@ void check_memory_need(const std::string& subject, double needed, double limit,
 /// check_memory_need() for `more` bytes beyond memory_of_program(). @param limit none: nothing is refused
 void expect_memory(const std::string& subject, double more, std::optional<std::uint64_t> limit);
 
-/// The memory that a piece of work takes beyond memory_of_program(), in bytes.
+/// The memory that some work takes beyond memory_of_program(), in bytes.
 struct MemoryDemand {
   double once = 0;
   double of_thread = 0;  ///< more, for each thread

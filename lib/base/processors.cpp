@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Processors by affinity; those of the machine where the system does not tell.
+/// Processors by affinity; those of the machine where the system does not report them.
 int allowed_processors() {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof(allowed), &allowed) == 0) return CPU_COUNT(&allowed);
@@ -50,9 +50,9 @@ double least_quota(const std::string& root, std::string path) {
 
 }  // namespace
 
-double processor_quota(const std::string& own, const std::string& root) {
+double processor_quota(const std::string& groups, const std::string& root) {
   double least = kInfinity;
-  std::istringstream lines(own);
+  std::istringstream lines(groups);
   // NUMBER:CONTROLLERS:PATH, without controllers in version 2
   for (std::string number, controllers, path; std::getline(lines, number, ':') &&
                                               std::getline(lines, controllers, ':') &&
@@ -69,9 +69,9 @@ double processor_quota(const std::string& own, const std::string& root) {
 }
 
 int usable_processors() {
-  std::ifstream own("/proc/self/cgroup");
+  std::ifstream groups("/proc/self/cgroup");
   std::ostringstream text;
-  text << own.rdbuf();
+  text << groups.rdbuf();
   const double most = std::ceil(processor_quota(text.str(), "/sys/fs/cgroup"));
   const int allowed = std::max(1, allowed_processors());
   return most < allowed ? std::max(1, static_cast<int>(most)) : allowed;

@@ -6,7 +6,7 @@
 /// sanitisers), and ends the program where it does not hold. In a release the condition is compiled and never
 /// evaluated.
 ///
-/// In docstrings `@pre` says it in words, and `@pre unchecked:` what cannot be checked cheaply, such as that
+/// In docstrings `@pre` says it as text, and `@pre unchecked:` what cannot be checked cheaply, such as that
 /// an argument outlives an object.
 #ifdef NDEBUG
 #define REQUIRES(...) static_cast<void>(sizeof(static_cast<bool>(__VA_ARGS__)))

@@ -8,7 +8,7 @@ namespace coordreq {
 
 /// A fixed set of threads that run loops together. One object is passed down explicitly; there is no global.
 ///
-/// Threads of our own rather than TBB or OpenMP: ThreadSanitizer cannot see the synchronisation inside
+/// This class rather than TBB or OpenMP: ThreadSanitizer cannot see the synchronisation inside
 /// those libraries and reports races that are none.
 ///
 /// Thread safety: `for_each` may be called from one thread at a time and not from within a loop body.
@@ -40,7 +40,7 @@ class ThreadTeam {
   void for_each(std::int64_t count, std::int64_t grain, const Body& body);
 
   /// From now on `watch` is called in every loop, by the thread that called for_each(), after each range that
-  /// this thread has run; what it throws ends the loop like what a body throws. Empty: nobody is told.
+  /// this thread has run; what it throws ends the loop like what a body throws. Empty: no call.
   void set_watch(Watch watch);
 
  private:

@@ -38,9 +38,9 @@ std::uint64_t resident_bytes() {
 
 std::uint64_t status_bytes(const std::string& key) {
   std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
+  for (std::string field; status >> field;) {
     std::uint64_t kib = 0;
-    if (word == key + ":" && status >> kib) return kib * 1024;
+    if (field == key + ":" && status >> kib) return kib * 1024;
   }
   return 0;
 }

@@ -11,9 +11,9 @@ namespace coordreq {
 /// Wall time by stage, in the order in which the stages were begun.
 class StageTimer {
  public:
-  /// Ends the stage under way, if any, and begins `name`; a name seen before is added to.
+  /// Ends the current stage, if any, and begins `name`; a name seen before is added to.
   void begin(std::string name);
-  /// Ends the stage under way.
+  /// Ends the current stage.
   void end();
   /// Stages and their seconds so far.
   [[nodiscard]] const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
@@ -30,15 +30,15 @@ class StageTimer {
 /// left. Without effect where the system cannot do that.
 void reset_peak_memory();
 
-/// Memory of this process now, in bytes; 0 where the system does not tell.
+/// Memory of this process now, in bytes; 0 where the system does not report it.
 [[nodiscard]] std::uint64_t resident_bytes();
 
 /// An entry of /proc/self/status, in bytes: "VmData" is the size that a limit of data counts, "RssAnon" and
-/// "RssFile" are in memory; 0 where the system does not tell.
+/// "RssFile" are in memory; 0 where the system does not report it.
 [[nodiscard]] std::uint64_t status_bytes(const std::string& key);
 
 /// The largest resident set of this process so far, or since reset_peak_memory(), in bytes; 0 where the
-/// system does not tell.
+/// system does not report it.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 }  // namespace coordreq

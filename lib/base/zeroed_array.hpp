@@ -10,7 +10,7 @@
 
 namespace coordreq {
 
-/// A fixed number of elements, all zero at first. What of a large one nobody has touched takes no memory: the
+/// A fixed number of elements, all zero at first. What of a large one is never touched takes no memory: the
 /// system gives it page by page.
 template <class Element>
 class ZeroedArray {

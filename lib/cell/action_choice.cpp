@@ -61,7 +61,7 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
   }
   for (InputClass& input_class : classes_) {
     input_class.tabulate();
-    class_parts_.push_back(input_class.parts());
+    class_offsets_.push_back(input_class.offsets());
   }
   for (const AgentSpec& agent : problem.spec->agents) {
     prefer_.emplace_back();
@@ -91,7 +91,7 @@ void ActionChooser::find_nominal() {
     });
     input_values_.emplace_back();
     for (const Rational& value : values) input_values_.back().push_back(nearest_double(value));
-    nominal_parts_.push_back((nearest - values.begin()) * space.stride(i));
+    nominal_offsets_.push_back((nearest - values.begin()) * space.stride(i));
   }
 }
 
@@ -110,7 +110,7 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
     choices_ = cell_policy.alone(cell, turn.countdown, together, classes_);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (choices_[c].empty()) return std::nullopt;
-      for (std::int64_t& a : choices_[c]) a = class_parts_[c][at(a)];
+      for (std::int64_t& a : choices_[c]) a = class_offsets_[c][at(a)];
     }
   }
   if (policy_ == Policy::random) return choose_randomly(random);
@@ -126,14 +126,14 @@ const std::vector<std::int64_t>& ActionChooser::controller(std::int64_t cell) {
 
 std::int64_t ActionChooser::choose_randomly(RandomStream& random) const {
   std::int64_t u = 0;
-  for (const Numbers& parts : choices_) u += parts[random.below(parts.size())];
+  for (const Numbers& offsets : choices_) u += offsets[random.below(offsets.size())];
   return u;
 }
 
 template <class Visit>
 void ActionChooser::for_each_choice(const Visit& visit) const {
   std::vector<std::int64_t> counts;
-  for (const Numbers& parts : choices_) counts.push_back(static_cast<std::int64_t>(parts.size()));
+  for (const Numbers& offsets : choices_) counts.push_back(static_cast<std::int64_t>(offsets.size()));
   Odometer choice(counts);
   do {
     std::int64_t u = 0;
@@ -171,8 +171,8 @@ std::int64_t ActionChooser::choose_preferred(std::int64_t cell, std::span<const 
   std::int64_t u = 0;
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     std::int64_t others = 0;
-    for (std::size_t i = 0; i < nominal_parts_.size(); ++i) {
-      if (!classes_[c].contains(static_cast<std::int32_t>(i))) others += nominal_parts_[i];
+    for (std::size_t i = 0; i < nominal_offsets_.size(); ++i) {
+      if (!classes_[c].contains(static_cast<std::int32_t>(i))) others += nominal_offsets_[i];
     }
     Numbers candidates = choices_[c];
     for (std::int64_t& candidate : candidates) candidate += others;

@@ -22,7 +22,8 @@
 
 namespace coordreq {
 
-/// The data of a closed loop. @pre unchecked: all parts belong together and outlive the users of this object.
+/// The data of a closed loop. @pre unchecked: all members belong together and outlive the users of this
+/// object.
 struct LoopProblem {
   const ProblemSpec* spec = nullptr;
   const Abstraction* abstraction = nullptr;
@@ -65,7 +66,7 @@ struct Nature {
 ///   state will be measured, then the smallest margin of the next state, then the smallest number. It knows
 ///   what nature will do. Outside K counts as smaller than any delay, T as larger.
 /// - prefer: smallest sum of the agents' `prefer` at the nominal next state, or, each class for itself, over
-///   the sum of its own agents; then the smallest number. Nominal: from
+///   the sum of its agents; then the smallest number. Nominal: from
 ///   the measured state, with every disturbance in the middle of its range and, without coordination, the
 ///   inputs of other classes at their values nearest to 0 (of two the smaller one). An undefined `prefer`
 ///   counts as infinite.
@@ -75,7 +76,7 @@ class ActionChooser {
   /// @pre unchecked: all outlive this object
   ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics, KeptInputs& controller);
 
-  /// Whether a policy, by its place among LoopProblem::policies, holds in a cell.
+  /// Whether a policy, by its position among LoopProblem::policies, holds in a cell.
   [[nodiscard]] bool holds(std::size_t policy, std::int64_t cell) {
     return cell_policies_[policy]->holds(cell);
   }
@@ -138,15 +139,15 @@ class ActionChooser {
   KeptInputs* controller_;
   std::vector<std::unique_ptr<CellPolicy>> cell_policies_, then_;  ///< [policy]
   std::vector<InputClass> classes_;
-  std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
+  std::vector<std::vector<std::int64_t>> class_offsets_;  ///< [class][action]: InputClass::offsets()
   NextMargin margin_;
   std::vector<std::optional<PointValue>> prefer_;  ///< by agent
   NextStates nominal_;
   std::vector<Rational> middle_;    ///< of each disturbance
   std::vector<Rational> no_error_;  ///< zeros
-  Numbers nominal_parts_;           ///< by input: what its nominal value adds to a joint input
+  Numbers nominal_offsets_;         ///< by input: what its nominal value adds to a joint input
   std::vector<std::vector<double>> input_values_;
-  /// [class], or one list if coordinated: parts of joint inputs that may be chosen in the cell at work.
+  /// [class], or one list if coordinated: offsets of joint inputs that may be chosen in the cell at work.
   std::vector<Numbers> choices_;
   std::vector<Rational> slots_;
   std::vector<double> doubles_;

@@ -40,9 +40,9 @@ double abstraction_bytes(const ResultsReader& results) {
   double bytes = 0, entries = 0, most = 0;
   for (const TableShape& shape : table_shapes(results.spec())) {
     bytes += shape.bytes;
-    const double own = choices_of(results.spec(), shape.states, shape.inputs);
-    entries += own;
-    most = std::max(most, own);
+    const double choices = choices_of(results.spec(), shape.states, shape.inputs);
+    entries += choices;
+    most = std::max(most, choices);
   }
   if (is_stored(results)) return (entries + most) * sizeof(IndexRange);  // and both ends of one while read
   return results.spec().abstraction.between_samples ? 2 * bytes : bytes;
@@ -125,53 +125,54 @@ const std::vector<bool>& CellController::joint_inputs(std::int64_t cell) {
 }
 
 std::vector<bool> CellController::joint_inputs(const AnswerPolicy& policy, std::int64_t cell) {
-  Part& one_part = part(policy, 0);
+  PartitionPolicy& entry = policy_of(policy, 0);
   const CellPolicy::Numbers admissible = numbers_of(joint_inputs(cell));
-  if (admissible.empty() || !one_part.policy->holds(cell)) return joint_inputs(cell);
+  if (admissible.empty() || !entry.policy->holds(cell)) return joint_inputs(cell);
   std::vector<bool> result(joint_inputs(cell).size(), false);
-  for (const std::int64_t u : one_part.policy->together(cell, admissible)) result[at(u)] = true;
+  for (const std::int64_t u : entry.policy->together(cell, admissible)) result[at(u)] = true;
   return result;
 }
 
 ActionSets CellController::actions(const AnswerPolicy& policy, std::size_t partition, std::int64_t cell,
                                    std::int32_t countdown) {
-  Part& one_part = part(policy, partition);
+  PartitionPolicy& entry = policy_of(policy, partition);
   const PartitionSpec& spec = results_.spec().coordination.partitions[partition];
   const CellBlock block = one_cell(results_.grid(), cell);
   const auto path = [&](std::size_t c) { return policy.stored(results_.spec(), spec, c); };
   const bool is_stored = policy.stored != nullptr && results_.has(path(0));
   ActionSets sets;
-  for (std::size_t c = 0; is_stored && c < one_part.classes.size(); ++c)
-    sets.push_back(unpacked(results_.bits(path(c), block), one_part.classes[c].actions()));
+  for (std::size_t c = 0; is_stored && c < entry.classes.size(); ++c)
+    sets.push_back(unpacked(results_.bits(path(c), block), entry.classes[c].actions()));
   if (is_stored) return sets;
-  for (const InputClass& one : one_part.classes) sets.emplace_back(at(one.actions()), false);
+  for (const InputClass& one : entry.classes) sets.emplace_back(at(one.actions()), false);
   const CellPolicy::Numbers admissible = numbers_of(joint_inputs(cell));
-  const bool is_asked =
+  const bool is_needed =
       policy.is_anywhere ? results_.members(paths::kSafe, block).front() != 0 : !admissible.empty();
-  if (!is_asked || !one_part.policy->holds(cell)) return sets;
-  const CellPolicy::Numbers& together = one_part.policy->together(cell, admissible);
-  const auto actions = one_part.policy->alone(cell, countdown, together, one_part.classes);
+  if (!is_needed || !entry.policy->holds(cell)) return sets;
+  const CellPolicy::Numbers& together = entry.policy->together(cell, admissible);
+  const auto actions = entry.policy->alone(cell, countdown, together, entry.classes);
   for (std::size_t c = 0; c < sets.size(); ++c) {
     for (const std::int64_t a : actions[c]) sets[c][at(a)] = true;
   }
   return sets;
 }
 
-CellController::Part& CellController::part(const AnswerPolicy& policy, std::size_t partition) {
-  const auto [entry, is_new] = parts_.try_emplace({policy.name, policy.is_by_agent ? 0 : partition});
-  Part& part = entry->second;
-  if (!is_new) return part;
+CellController::PartitionPolicy& CellController::policy_of(const AnswerPolicy& policy,
+                                                           std::size_t partition) {
+  const auto [entry, is_new] = policies_of_.try_emplace({policy.name, policy.is_by_agent ? 0 : partition});
+  PartitionPolicy& result = entry->second;
+  if (!is_new) return result;
   const ProblemSpec& spec = results_.spec();
-  part.classes = policy.is_by_agent
-                     ? agent_classes(spec, results_.inputs())
-                     : input_classes(spec, results_.inputs(), spec.coordination.partitions[partition]);
-  part.policy =
+  result.classes = policy.is_by_agent
+                       ? agent_classes(spec, results_.inputs())
+                       : input_classes(spec, results_.inputs(), spec.coordination.partitions[partition]);
+  result.policy =
       policy.make({.spec = &spec,
                    .partition = &spec.coordination.partitions[partition],
                    .tables = this,
                    .posts = &posts_,
                    .values = [this, partition](const auto& path) { return values(path, partition); }});
-  return part;
+  return result;
 }
 
 std::int64_t CellController::length(const std::string& scale) const {
@@ -179,8 +180,8 @@ std::int64_t CellController::length(const std::string& scale) const {
 }
 
 std::vector<std::uint8_t> CellController::bytes(const std::string& path,
-                                                const std::vector<std::int64_t>& place) const {
-  return results_.bytes(results_.field(path), place);
+                                                const std::vector<std::int64_t>& indices) const {
+  return results_.bytes(results_.field(path), indices);
 }
 
 CellValue CellController::values(const std::string& path, std::size_t partition) {

@@ -61,9 +61,9 @@ class CellController : private ByteTables {
   /// agents, with `countdown` steps of silence left: none outside K, and where the policy does not hold.
   [[nodiscard]] ActionSets actions(const AnswerPolicy& policy, std::size_t partition, std::int64_t cell,
                                    std::int32_t countdown);
-  /// The values of a field of integers, of a partition where it is over these.
+  /// The values of a field of integers, of a partition where it is by these.
   [[nodiscard]] CellValue values(const std::string& path, std::size_t partition);
-  /// Where it looks up posts; whoever asks for a cell moves there first.
+  /// Where it looks up posts; a caller moves to a cell first.
   [[nodiscard]] CellPosts& posts() { return posts_; }
   /// The projections of C(x) on the classes.
   [[nodiscard]] ActionSets actions(std::size_t partition, std::int64_t cell) {
@@ -72,16 +72,16 @@ class CellController : private ByteTables {
 
  private:
   /// A policy of one partition.
-  struct Part {
+  struct PartitionPolicy {
     std::vector<InputClass> classes;
     std::unique_ptr<CellPolicy> policy;
   };
 
   [[nodiscard]] std::int64_t length(const std::string& scale) const override;
   [[nodiscard]] std::vector<std::uint8_t> bytes(const std::string& path,
-                                                const std::vector<std::int64_t>& place) const override;
+                                                const std::vector<std::int64_t>& indices) const override;
   [[nodiscard]] AdmissibleInputs::Sets sets(ThreadTeam& team);
-  [[nodiscard]] Part& part(const AnswerPolicy& policy, std::size_t partition);
+  [[nodiscard]] PartitionPolicy& policy_of(const AnswerPolicy& policy, std::size_t partition);
   [[nodiscard]] bool is_listed(std::int64_t cell, std::int64_t u);
 
   const ResultsReader& results_;
@@ -91,9 +91,9 @@ class CellController : private ByteTables {
   SetWindow safe_;
   std::optional<SafeBeyondFile> safe_beyond_;
   AdmissibleInputs admissible_;
-  std::map<std::pair<std::string, std::size_t>, Part> parts_;  ///< by name and partition
+  std::map<std::pair<std::string, std::size_t>, PartitionPolicy> policies_of_;  ///< by name and partition
   std::map<std::pair<std::string, std::size_t>, std::map<std::int64_t, std::int32_t>>
-      values_;              ///< by cell, those asked for
+      values_;              ///< by cell, those requested
   std::int64_t cell_ = -1;  ///< the one that `joint_inputs_` is of
   std::vector<bool> joint_inputs_;
   std::int64_t listed_cell_ = -1;

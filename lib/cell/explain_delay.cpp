@@ -34,8 +34,8 @@ class Explainer {
     found.is_lower_bound = sets_.delays().is_lower_bound(cell);
     const bool is_bounded = sets_.delays().is_bounded(cell);
     if (is_bounded) found.path = counterexample(cell, state);
-    found.is_over = is_over(cell);
-    if (!found.is_over) {
+    found.is_terminal = is_terminal(cell);
+    if (!found.is_terminal) {
       add_others(cell, is_bounded, found);
       if (results_.spec().silence) found.silence = explain_silence(cell, state);
     }
@@ -75,7 +75,7 @@ class Explainer {
   [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const { return sets_.delays().at(cell); }
 
   /// A goal that ends the task is reached there.
-  [[nodiscard]] bool is_over(std::int64_t cell) {
+  [[nodiscard]] bool is_terminal(std::int64_t cell) {
     return results_.spec().ends_at_goal() && controller_.values(paths::kArrival, partition_)(cell) == 0;
   }
 
@@ -112,11 +112,12 @@ class Explainer {
 
   [[nodiscard]] static std::int64_t choices(const std::vector<std::vector<bool>>& actions) {
     std::int64_t product = 1;
-    for (const std::vector<bool>& own : actions) product *= std::count(own.begin(), own.end(), true);
+    for (const std::vector<bool>& allowed : actions)
+      product *= std::count(allowed.begin(), allowed.end(), true);
     return product;
   }
 
-  /// The number of steps that a post leaves, its own included; a blocked one leaves none.
+  /// The number of steps that a post leaves, this one included; a blocked one leaves none.
   [[nodiscard]] std::int32_t steps_after(const CellPost& post) {
     if (post.blocked != CellPost::Blocked::no) return 0;
     if (post.all_left) return kUnbounded;
@@ -144,8 +145,8 @@ class Explainer {
       const bool is_forbidden = controller_.forbids(cell, u);
       const std::int32_t steps = is_forbidden ? 0 : steps_after(posts_.post(u, sets_.context().tubes()));
       for (std::size_t c = 0; c < classes_.size(); ++c) {
-        std::int32_t& own = worst[c][at(classes_[c].action(u))];
-        own = std::min(own, steps);
+        std::int32_t& least = worst[c][at(classes_[c].action(u))];
+        least = std::min(least, steps);
       }
     }
     for (std::size_t c = 0; c < classes_.size(); ++c) {
@@ -169,7 +170,7 @@ class Explainer {
         while (k <= most && delay_at(cell + k * step * grid.stride(i)) <= found.delay) ++k;
         if (k > most || k >= nearest) continue;
         const std::int64_t other = cell + k * step * grid.stride(i);
-        if (is_over(other)) continue;  // there nobody chooses anything
+        if (is_terminal(other)) continue;  // no choices there
         const std::int64_t alone = choices(controller_.actions(partition_, other));
         if (alone >= found.alone) continue;
         nearest = k;

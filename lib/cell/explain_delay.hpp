@@ -19,8 +19,8 @@ namespace coordreq {
 struct DelayExplanation {
   std::int32_t delay = 0;
   bool is_lower_bound = false;  ///< `max_delay` ended the iteration before
-  bool is_over = false;         ///< a goal that ends the task is reached there
-  /// A shortest way out of S on which each class picks from its projection of C(x) as long as that is in K
+  bool is_terminal = false;     ///< a goal that ends the task is reached there
+  /// A shortest path out of S on which each class picks from its projection of C(x) as long as that is in K
   /// (find_counterexample()); none where the delay has no known end.
   std::optional<ResultPath> path;
   // The members below are set only in K.
@@ -47,19 +47,19 @@ struct DelayExplanation {
   struct Silence {
     std::int32_t steps = 0;       ///< as `/silence`
     bool is_lower_bound = false;  ///< likewise
-    /// A shortest way out of K', or of S if nothing is said of what comes after; none where it has no known
-    /// end.
+    /// A shortest path out of K', or of S without a rule for the time after silence; none where it has no
+    /// known end.
     std::optional<ResultPath> path;
     std::vector<std::vector<bool>> actions;  ///< [class][action] what they may do here
   };
-  std::optional<Silence> silence;  ///< not where the task is over
+  std::optional<Silence> silence;  ///< not in terminal cells
 
   std::vector<Explained> others;  ///< what answers add, in their order
 
   std::optional<Neighbour> freer_is_shorter;  ///< the nearest, of equals in the first dimension, below first
 };
 
-/// Memory of explaining the delay of a cell, and of telling it.
+/// Memory of explaining the delay of a cell, and of its text.
 [[nodiscard]] MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition,
                                           std::int64_t cell);
 /// @param cell its number in the spec's grid @param state in it

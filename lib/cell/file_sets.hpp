@@ -13,10 +13,10 @@
 
 namespace coordreq {
 
-/// Steps of a results file, read where cells are asked for, and kept. Not thread-safe.
+/// Steps of a results file, read where they are needed, and kept. Not thread-safe.
 class FileSteps {
  public:
-  /// @pre unchecked: `results` outlive this object. @param partition nothing: the field is not over
+  /// @pre unchecked: `results` outlive this object. @param partition nothing: the field is not by
   /// partitions
   FileSteps(const ResultsReader& results, const char* path, std::optional<std::size_t> partition);
   /// Those that a kind of countdown has in a partition.

@@ -61,20 +61,20 @@ std::int32_t steps_of_pair(const ResultsReader& results, const Field& field, std
 
 LeastSteps least_steps(const ResultsReader& results, const Field& field, std::size_t partition,
                        std::istream& pairs, const std::string& source, std::optional<std::int32_t> at_least,
-                       const std::function<void(const std::vector<std::string>&)>& told) {
+                       const std::function<void(const std::vector<std::string>&)>& report) {
   StateReader reader(pairs, state_names(results.spec()), source);
   LeastSteps found;
   if (at_least) found.below = 0;
-  told(other_names(reader));
+  report(other_names(reader));
   while (const std::optional<std::vector<Rational>> state = reader.next()) {
-    told(other_names(reader));
+    report(other_names(reader));
     ++found.pairs;
-    const std::int32_t own = steps_of_pair(results, field, partition, *state, reader.place());
-    if (found.pairs == 1 || own < found.least) {
-      found.least = own;
+    const std::int32_t steps = steps_of_pair(results, field, partition, *state, reader.location());
+    if (found.pairs == 1 || steps < found.least) {
+      found.least = steps;
       found.pair = label_of(reader, found.pairs);
     }
-    if (at_least && own < *at_least) ++*found.below;
+    if (at_least && steps < *at_least) ++*found.below;
   }
   if (found.pairs == 0)
     throw UsageError("no pairs, expected a line of column names and a line for each", source);

@@ -15,15 +15,15 @@ namespace {
 
 using Index = std::optional<std::int64_t>;
 
-/// The place of a value among those of an input; -1: it is none of them.
+/// The index of a value among those of an input; -1: it is none of them.
 std::int64_t value_index(const std::vector<Rational>& values, const Rational& value) {
-  const auto distance = [&value](const Rational& own) { return Rational(abs(own - value)); };
+  const auto distance = [&value](const Rational& candidate) { return Rational(abs(candidate - value)); };
   const auto nearest = std::min_element(
       values.begin(), values.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   // Inputs have no step, and one at 0 may be as small as it likes beside the others.
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const Rational spacing = values.size() < 2 ? Rational(0) : Rational((*most - *least) / (4 * values.size()));
-  const Rational slack = LogPlaces::slack(value, spacing);
+  const Rational slack = LogLocator::slack(value, spacing);
   return distance(*nearest) <= slack ? nearest - values.begin() : -1;
 }
 
@@ -49,13 +49,13 @@ const char* finding_name(LogFinding finding) {
 }
 
 std::optional<bool> JudgedRow::found(LogFinding finding) const {
-  const bool has_cell = !place.cells.empty();
+  const bool has_cell = !position.cells.empty();
   const auto judged_if = [](bool is_judged, bool is_found) {
     return is_judged ? std::optional(is_found) : std::nullopt;
   };
   switch (finding) {
     case LogFinding::outside:
-      return place.is_outside();
+      return position.is_outside();
     case LogFinding::unsafe:
       return judged_if(has_cell, delay == -2);
     case LogFinding::not_invariant:
@@ -63,8 +63,9 @@ std::optional<bool> JudgedRow::found(LogFinding finding) const {
     case LogFinding::off_model:
       return judged_if(fits_model.has_value(), !fits_model.value_or(true));
     case LogFinding::reckless:
-      return judged_if(std::any_of(is_reckless.begin(), is_reckless.end(), [](auto own) { return !!own; }),
-                       std::find(is_reckless.begin(), is_reckless.end(), true) != is_reckless.end());
+      return judged_if(
+          std::any_of(is_reckless.begin(), is_reckless.end(), [](auto verdict) { return !!verdict; }),
+          std::find(is_reckless.begin(), is_reckless.end(), true) != is_reckless.end());
     case LogFinding::not_coordinated:
       return judged_if(in_controller && log.connected.value_or(false), !in_controller.value_or(true));
     case LogFinding::breach:
@@ -79,7 +80,7 @@ LogJudge::LogJudge(const ResultsReader& results, std::size_t partition, LogReade
       partition_(partition),
       log_(log),
       controller_(results, team),
-      places_(results.spec(), controller_.posts()),
+      locator_(results.spec(), controller_.posts()),
       watch_(results, partition, controller_),
       classes_(input_classes(results.spec(), results.inputs(),
                              results.spec().coordination.partitions[partition])) {}
@@ -87,20 +88,20 @@ LogJudge::LogJudge(const ResultsReader& results, std::size_t partition, LogReade
 std::optional<JudgedRow> LogJudge::next() {
   if (!std::exchange(has_begun_, true)) {
     ahead_ = read(nullptr);
-    if (ahead_) watch_.begin(ahead_->place);
+    if (ahead_) watch_.begin(ahead_->position);
   }
   if (!ahead_) return std::nullopt;
   JudgedRow row = std::move(*ahead_);
   row.countdown = watch_.countdown();
   judge_actions(row);
-  row.is_silent_too_long = watch_.leave(row.place, row.contact, actions_);
+  row.is_silent_too_long = watch_.leave(row.position, row.contact, actions_);
   ahead_ = read(&row);
   if (!ahead_) return row;
   if (!ahead_->is_after_gap) {
     judge_model(row, *ahead_);
-    ahead_->tolerates_less = watch_.arrive(ahead_->place, row.contact);
+    ahead_->tolerates_less = watch_.arrive(ahead_->position, row.contact);
   } else {
-    watch_.begin(ahead_->place);
+    watch_.begin(ahead_->position);
   }
   return row;
 }
@@ -111,8 +112,8 @@ std::optional<JudgedRow> LogJudge::read(const JudgedRow* before) {
   JudgedRow row{.number = before == nullptr ? 1 : before->number + 1, .log = std::move(*log)};
   const bool follows = before != nullptr && is_next(row, *before);
   row.is_after_gap = before != nullptr && !follows;
-  row.place = places_.place(row.log, follows ? before->place.cells : std::vector<std::int64_t>());
-  for (const std::int64_t cell : row.place.cells) row.delay = std::max(row.delay, watch_.delay(cell));
+  row.position = locator_.position(row.log, follows ? before->position.cells : std::vector<std::int64_t>());
+  for (const std::int64_t cell : row.position.cells) row.delay = std::max(row.delay, watch_.delay(cell));
   return row;
 }
 
@@ -127,7 +128,7 @@ bool LogJudge::is_next(const JudgedRow& row, const JudgedRow& before) const {
   throw UsageError(fmt::format("found {} after {}, expected one period more, {}{}, or several",
                                nearest_double(*row.log.time), nearest_double(*before.log.time),
                                nearest_double(dynamics.period), unit),
-                   row.log.place + ", t");
+                   row.log.location + ", t");
 }
 
 /// The joint input of the row; nothing if some input is not logged or has no value of the spec.
@@ -150,19 +151,20 @@ void LogJudge::take_actions(JudgedRow& row) {
   }
   actions_.assign(classes_.size(), std::nullopt);
   for (std::size_t c = 0; c < classes_.size(); ++c) {
-    const std::vector<std::int32_t>& own = classes_[c].inputs();
+    const std::vector<std::int32_t>& inputs_of_class = classes_[c].inputs();
     const auto value = [this](std::int32_t input) { return values_[at(input)]; };
-    if (!std::all_of(own.begin(), own.end(), value)) continue;
+    if (!std::all_of(inputs_of_class.begin(), inputs_of_class.end(), value)) continue;
     const std::vector<std::int64_t> strides = classes_[c].strides();
-    const bool is_any = std::all_of(own.begin(), own.end(), [&](std::int32_t j) { return *value(j) >= 0; });
+    const bool is_any = std::all_of(inputs_of_class.begin(), inputs_of_class.end(),
+                                    [&](std::int32_t j) { return *value(j) >= 0; });
     actions_[c] = is_any ? 0 : -1;
-    for (std::size_t j = 0; is_any && j < own.size(); ++j)
-      *actions_[c] += *value(own[j]) * strides[at(own[j])];
+    for (std::size_t j = 0; is_any && j < inputs_of_class.size(); ++j)
+      *actions_[c] += *value(inputs_of_class[j]) * strides[at(inputs_of_class[j])];
   }
 }
 
 /// A goal that ends the task is reached there: what follows does not matter.
-bool LogJudge::is_over(std::int64_t cell) {
+bool LogJudge::is_terminal(std::int64_t cell) {
   return results_.spec().ends_at_goal() && controller_.values(paths::kArrival, partition_)(cell) == 0;
 }
 
@@ -172,8 +174,8 @@ void LogJudge::judge_actions(JudgedRow& row) {
   const bool is_complete = std::all_of(values_.begin(), values_.end(), [](Index index) { return !!index; });
   const Index u = joint_input();
   row.is_reckless.assign(classes_.size(), std::nullopt);
-  for (const std::int64_t cell : row.place.cells) {
-    if (watch_.delay(cell) < 0 || is_over(cell)) continue;
+  for (const std::int64_t cell : row.position.cells) {
+    if (watch_.delay(cell) < 0 || is_terminal(cell)) continue;
     const ActionSets sets = controller_.actions(partition_, cell);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!actions_[c]) continue;
@@ -191,20 +193,20 @@ void LogJudge::judge_actions(JudgedRow& row) {
 
 void LogJudge::judge_model(JudgedRow& row, const JudgedRow& next) {
   const std::optional<std::int64_t> u = joint_input();
-  if (!u || row.place.cells.empty()) return;
+  if (!u || row.position.cells.empty()) return;
   std::optional<std::size_t> first;
-  for (const std::int64_t cell : row.place.cells) {
+  for (const std::int64_t cell : row.position.cells) {
     const std::optional<std::size_t> misfit = misfit_in(cell, *u, next);
     row.fits_model = row.fits_model.value_or(false) || !misfit;
     if (*row.fits_model) return;
-    if (cell == row.place.cells.front()) first = misfit;
+    if (cell == row.position.cells.front()) first = misfit;
   }
-  controller_.posts().move_to(row.place.cells.front());
+  controller_.posts().move_to(row.position.cells.front());
   const UniformGrid& grid = results_.grid();
   const GridDimension& dimension = grid[*first];
   const IndexRange raw = controller_.posts().raw(*first, *u);
   row.misfit = {.state = *first,
-                .found = next.place.state[*first],
+                .found = next.position.state[*first],
                 .lower = dimension.point(raw.first) - dimension.radius(),
                 .upper = dimension.point(raw.last) + dimension.radius()};
 }
@@ -217,7 +219,7 @@ std::optional<std::size_t> LogJudge::misfit_in(std::int64_t cell, std::int64_t u
     if (!next.log.is_given[i]) continue;  // it follows from the cell
     const IndexRange raw = posts.raw(i, u);
     const ResolvedRange resolved = posts.resolved(i, u);
-    const std::vector<std::int64_t>& found = next.place.indices[i];
+    const std::vector<std::int64_t>& found = next.position.indices[i];
     const bool fits = std::any_of(found.begin(), found.end(), [&](std::int64_t k) {
       return is_reached(results_.grid()[i], raw, resolved, k);
     });

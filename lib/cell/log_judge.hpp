@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cell/cell_controller.hpp"
-#include "cell/log_place.hpp"
+#include "cell/log_position.hpp"
 #include "cell/log_reader.hpp"
 #include "cell/silence_watch.hpp"
 
@@ -18,7 +18,7 @@ enum class LogFinding : std::uint8_t {
   unsafe,           ///< not in S
   not_invariant,    ///< in S, but not in K
   off_model,        ///< the next state is not in f(x,u)
-  reckless,         ///< some class's action is not in its projection of C(x): the paper's word
+  reckless,         ///< some class's action is not in its projection of C(x): the paper's term
   not_coordinated,  ///< the agents were connected, and the joint input is not in C(x)
   breach,           ///< silence for longer than the countdown, or a cell that tolerates less than it says
 };
@@ -31,7 +31,7 @@ struct JudgedRow {
   std::int64_t number = 0;    ///< 1 is the first
   bool is_after_gap = false;  ///< samples are missing before it
   LogRow log;
-  LogPlace place;
+  LogPosition position;
   std::int32_t delay = -2;                ///< as in `/delay`; the longest of the cells that it may be
   std::optional<std::int32_t> countdown;  ///< kUnbounded: without end; nothing outside K
   std::optional<bool> fits_model;
@@ -54,8 +54,8 @@ struct JudgedRow {
 };
 
 /// Judges a log, row by row: against the posts of a system, its controller and the delays of a partition, as
-/// a results file has them. Of a row that lies in one of several cells (LogPlace) it finds nothing that one
-/// of them does not bear out.
+/// a results file has them. Of a row that lies in one of several cells (LogPosition) it finds nothing that
+/// one of them does not bear out.
 ///
 /// A row after which some are missing (`t`) is judged alone, and a countdown begins after it.
 class LogJudge {
@@ -70,7 +70,7 @@ class LogJudge {
  private:
   [[nodiscard]] std::optional<JudgedRow> read(const JudgedRow* before);
   [[nodiscard]] bool is_next(const JudgedRow& row, const JudgedRow& before) const;
-  [[nodiscard]] bool is_over(std::int64_t cell);
+  [[nodiscard]] bool is_terminal(std::int64_t cell);
   void take_actions(JudgedRow& row);
   void judge_actions(JudgedRow& row);
   void judge_model(JudgedRow& row, const JudgedRow& next);
@@ -82,7 +82,7 @@ class LogJudge {
   std::size_t partition_;
   LogReader& log_;
   CellController controller_;
-  LogPlaces places_;
+  LogLocator locator_;
   SilenceWatch watch_;
   std::vector<InputClass> classes_;
   std::optional<JudgedRow> ahead_;

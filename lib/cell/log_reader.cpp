@@ -36,7 +36,7 @@ void LogReader::check_names() const {
     const bool is_known = input_of(names[i]) || names[i] == kTime || names[i] == kConnected;
     if (is_known && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
                         names.begin() + static_cast<std::ptrdiff_t>(i))
-      throw UsageError(fmt::format("'{}' is given twice", names[i]), states_.place());
+      throw UsageError(fmt::format("'{}' is given twice", names[i]), states_.location());
   }
 }
 
@@ -51,7 +51,7 @@ std::vector<std::string> LogReader::unknown_names() const {
 std::optional<LogRow> LogReader::next() {
   std::optional<std::vector<Rational>> state = states_.next();
   if (!state) return std::nullopt;
-  LogRow row{.place = states_.place(), .state = std::move(*state)};
+  LogRow row{.location = states_.location(), .state = std::move(*state)};
   for (std::size_t i = 0; i < row.state.size(); ++i) row.is_given.push_back(states_.is_given(i));
   row.inputs.resize(inputs_.size());
   for (const StateReader::Extra& extra : states_.extra()) take(extra, row);
@@ -63,15 +63,15 @@ void LogReader::take(const StateReader::Extra& extra, LogRow& row) const {
   if (!input && extra.name != kTime && extra.name != kConnected) return;
   const std::string text = extra.text();
   if (text.empty()) return;
-  const std::string place = row.place + ", " + extra.name;
+  const std::string location = row.location + ", " + extra.name;
   if (input) {
-    row.inputs[*input] = parse_value(text, place);
+    row.inputs[*input] = parse_value(text, location);
   } else if (extra.name == kTime) {
-    row.time = parse_value(text, place);
+    row.time = parse_value(text, location);
   } else if (text == "0" || text == "1") {
     row.connected = text == "1";
   } else {
-    throw UsageError(fmt::format("expected 0 or 1, found {}", quote_text(text)), place);
+    throw UsageError(fmt::format("expected 0 or 1, found {}", quote_text(text)), location);
   }
 }
 

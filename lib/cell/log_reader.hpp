@@ -14,7 +14,7 @@ namespace coordreq {
 
 /// A sample of a log, and the step that follows it.
 struct LogRow {
-  std::string place;                            ///< for messages: "standard input, line 3"
+  std::string location;                         ///< for messages: "standard input, line 3"
   std::vector<Rational> state;                  ///< as measured; 0 where it is not given
   std::vector<bool> is_given;                   ///< [state]: all but those that memories keep
   std::vector<std::optional<Rational>> inputs;  ///< [input] from the sample on; nothing: not logged

@@ -12,14 +12,14 @@ namespace coordreq {
 namespace {
 
 /// floor(p 2^64), at most the greatest number.
-std::uint64_t in_parts(const Rational& p) {
+std::uint64_t fixed_point(const Rational& p) {
   mpq_class scaled = p;
   mpq_mul_2exp(scaled.get_mpq_t(), p.get_mpq_t(), 64);
   const mpz_class whole = scaled.get_num() / scaled.get_den();
   if (mpz_sizeinbase(whole.get_mpz_t(), 2) > 64) return std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t parts = 0;
-  mpz_export(&parts, nullptr, -1, sizeof(parts), 0, 0, whole.get_mpz_t());
-  return parts;
+  std::uint64_t bits = 0;
+  mpz_export(&bits, nullptr, -1, sizeof(bits), 0, 0, whole.get_mpz_t());
+  return bits;
 }
 
 /// Whether there are probabilities in the ranges that are 1 in sum.
@@ -69,15 +69,15 @@ LossyNetwork::LossyNetwork(const NetworkSpec& network) : modes_(network.modes.si
     Rational sum = 0;
     const std::vector<Rational> probabilities = likeliest(ranges[mode]);
     for (std::size_t i = 0; i < one_mode.next.size(); ++i)
-      one_mode.next[i].second = in_parts(sum += probabilities[i]);
+      one_mode.next[i].second = fixed_point(sum += probabilities[i]);
   }
 }
 
 std::size_t LossyNetwork::draw(std::size_t mode, RandomStream& random) const {
   const auto& next = modes_[mode].next;
   const std::uint64_t number = random.next();
-  const auto found =
-      std::find_if(next.begin(), next.end() - 1, [number](const auto& own) { return number < own.second; });
+  const auto found = std::find_if(next.begin(), next.end() - 1,
+                                  [number](const auto& entry) { return number < entry.second; });
   return found->first;
 }
 

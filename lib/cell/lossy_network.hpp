@@ -17,7 +17,7 @@ class LossyNetwork {
   struct Mode {
     const PartitionSpec* partition = nullptr;
     bool is_connected = false;  ///< all agents are one class
-    /// [mode that can follow] and up to where its numbers go, in parts of 2^64: the last up to the end.
+    /// [mode that can follow] and up to where its numbers go, in units of 2^-64: the last up to the end.
     std::vector<std::pair<std::size_t, std::uint64_t>> next;
   };
 

@@ -60,9 +60,9 @@ NextStates::Entry& NextStates::entry(std::size_t i, std::int64_t u) {
   if (!is_new) return result;
   for (const std::int32_t j : dynamics_->dependencies(i).inputs) {
     const InputSpace& inputs = abstraction_->inputs;
-    const std::size_t place = at(inputs.index(u, at(j)));
-    slots_[spec_->input_slot(at(j))] = inputs[at(j)].values[place];
-    doubles_[spec_->input_slot(at(j))] = input_values_[at(j)][place];
+    const std::size_t number = at(inputs.index(u, at(j)));
+    slots_[spec_->input_slot(at(j))] = inputs[at(j)].values[number];
+    doubles_[spec_->input_slot(at(j))] = input_values_[at(j)][number];
   }
   if (const std::optional<std::int64_t> index = index_by_estimate(i)) {
     result.value.known = true;
@@ -81,14 +81,15 @@ std::optional<std::int64_t> NextStates::index_by_estimate(std::size_t i) {
   if (!axis.is_quick || (error_[i] != 0 && !std::isnormal(axis.error))) return std::nullopt;
   const std::optional<PointDynamics::Estimate> next = dynamics_->estimate(i, slots_, doubles_);
   if (!next) return std::nullopt;
-  // Each operation errs by less than kUnit of its result, and so does each number in place of a rational.
+  // Each operation errs by less than kUnit of its result, and so does each number that replaces a rational.
   constexpr double kUnit = std::numeric_limits<double>::epsilon();
   const double measured = next->value + axis.error;
-  const double place = (measured - axis.first) / axis.step + 0.5;
+  const double coordinate = (measured - axis.first) / axis.step + 0.5;
   const double size = std::fabs(next->value) + std::fabs(axis.error) + std::fabs(axis.first);
-  const double slack = 2 * (next->error + 4 * kUnit * size) / axis.step + 4 * kUnit * (std::fabs(place) + 1);
-  const double lower = std::floor(place - slack);
-  if (!std::isfinite(lower) || lower != std::floor(place + slack)) return std::nullopt;
+  const double slack =
+      2 * (next->error + 4 * kUnit * size) / axis.step + 4 * kUnit * (std::fabs(coordinate) + 1);
+  const double lower = std::floor(coordinate - slack);
+  if (!std::isfinite(lower) || lower != std::floor(coordinate + slack)) return std::nullopt;
   if (lower < 0 || lower > axis.highest) return std::nullopt;
   return static_cast<std::int64_t>(lower);
 }

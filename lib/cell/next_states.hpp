@@ -14,7 +14,7 @@
 namespace coordreq {
 
 /// The next states from one point under one disturbance and any joint input. What depends only on few inputs
-/// is computed once for each of their values, when it is asked for. Where a state is measured follows from
+/// is computed once for each of their values, when it is needed. Where a state is measured follows from
 /// doubles with a bound on their error, unless that leaves two cells: most exact values are never needed.
 class NextStates {
  public:
@@ -81,7 +81,7 @@ class NextStates {
   std::vector<InputClass> inputs_;                                ///< [state] those that it depends on
   std::vector<std::unordered_map<std::int64_t, Entry>> entries_;  ///< [state], by actions of its inputs
   std::vector<std::vector<double>> input_values_;
-  std::vector<UniformGrid> axes_;  ///< each dimension as a grid of its own
+  std::vector<UniformGrid> axes_;  ///< each dimension as a separate grid
   std::vector<Axis> quick_;
 };
 

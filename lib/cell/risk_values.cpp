@@ -31,20 +31,20 @@ RiskValues read_risk_values(const ResultsReader& results) {
   std::vector<std::vector<std::uint32_t>> levels;
   for (std::size_t mode = 0; mode < spec.network->modes.size(); ++mode) {
     std::vector<std::int32_t>& most = values.emplace_back()[paths::kRiskMost];
-    auto& own = levels.emplace_back();
+    auto& mode_levels = levels.emplace_back();
     for (const float risk : results.reals(field, mode, all_cells(results.grid()))) {
       if (!(risk >= 0 && risk <= 1)) results.fail("a risk is no probability", field.path);
-      own.push_back(risk_level<std::uint32_t>(risk));
+      mode_levels.push_back(risk_level<std::uint32_t>(risk));
       most.push_back(std::bit_cast<std::int32_t>(lower_float(outward::add_down(double{risk}, rate))));
     }
   }
   const ExpectedRisks expected(*spec.network);
   for (std::size_t mode = 0; mode < values.size(); ++mode) {
-    const ExpectedRisk& own = expected.different[expected.of_mode[mode]];
+    const ExpectedRisk& expected_risk = expected.different[expected.of_mode[mode]];
     std::vector<const std::uint32_t*> rows;
-    for (const std::size_t next : own.successors()) rows.push_back(levels[next].data());
+    for (const std::size_t next : expected_risk.successors()) rows.push_back(levels[next].data());
     std::vector<std::uint32_t> after(levels[mode].size());
-    own.find(rows, after.size(), after.data());
+    expected_risk.find(rows, after.size(), after.data());
     for (const std::uint32_t level : after)
       values[mode][paths::kRiskAfter].push_back(std::bit_cast<std::int32_t>(risk_of(level)));
   }
@@ -54,11 +54,11 @@ RiskValues read_risk_values(const ResultsReader& results) {
 double risk_of_runs(const ResultsReader& results, std::int64_t cell, std::int64_t steps) {
   const RiskSpec& risk = *results.spec().risk;
   const RequirementDataset start = dataset_of(RequirementKind::max_risk, results.spec());
-  const float own =
+  const float start_risk =
       results.reals(results.field(start.path), start.entry, one_cell(results.grid(), cell)).front();
   const std::int64_t added = risk.is_safest ? steps : std::max<std::int64_t>(0, steps - risk.horizon);
   const double more = outward::multiply_up(results.number(paths::kRisk, "rate"), static_cast<double>(added));
-  return std::min(1.0, outward::add_up(double{own}, more));
+  return std::min(1.0, outward::add_up(double{start_risk}, more));
 }
 
 double bytes_of_risk_values(const ProblemSpec& spec) {

@@ -11,7 +11,7 @@
 namespace coordreq {
 
 /// TubeSets::beyond, with S from a results file. How far beyond a limit cells must be safe is a question to
-/// all tubes, so that it is answered only when it is first asked. Not thread-safe.
+/// all tubes, so that it is computed only when it is first needed. Not thread-safe.
 class SafeBeyondFile {
  public:
   /// @pre the spec asks for safety between the samples. @pre unchecked: all outlive this object

@@ -72,7 +72,7 @@ class SelfTriggered final : public Schedule {
     const AnswerPolicy& policy = problem_.policies[policy_];
     const RunTrace::Sample& sample = trace.samples.back();
     if (policy_ == 0) return reset(sample.delay);
-    if (policy.is_on_request) return 0;  // nobody has agreed on anything yet
+    if (policy.is_on_request) return 0;  // no step has been agreed yet
     return reset(problem_.values.at(policy.delay)[at(sample.cell)]);
   }
 
@@ -107,8 +107,8 @@ class OnNetwork final : public Schedule {
       std::shared_ptr<ActionChooser>& chooser =
           known[network_.modes()[mode].partition->canonical + (is_safest ? " " + std::to_string(mode) : "")];
       if (!chooser) {
-        const LoopProblem own = problem_of(problem, mode, is_safest);
-        chooser = std::make_shared<ActionChooser>(own, policy, dynamics, controller);
+        const LoopProblem mode_problem = problem_of(problem, mode, is_safest);
+        chooser = std::make_shared<ActionChooser>(mode_problem, policy, dynamics, controller);
       }
       choosers_.push_back(chooser);
     }
@@ -127,27 +127,27 @@ class OnNetwork final : public Schedule {
   Turn turn(const RunTrace& /*trace*/) override { return {*choosers_[mode_], {.countdown = countdown()}}; }
 
   [[nodiscard]] Outcome stopped(const RunTrace& trace, bool is_forbidden) const override {
-    const bool is_told = !network_.modes()[mode_].is_connected && spec_.silence;
-    return is_told && !is_forbidden ? Outcome::stuck : Schedule::stopped(trace, is_forbidden);
+    const bool has_rule = !network_.modes()[mode_].is_connected && spec_.silence;
+    return has_rule && !is_forbidden ? Outcome::stuck : Schedule::stopped(trace, is_forbidden);
   }
 
  private:
   [[nodiscard]] std::int32_t countdown() const { return network_.modes()[mode_].is_connected ? 0 : 1; }
 
   [[nodiscard]] LoopProblem problem_of(const LoopProblem& problem, std::size_t mode, bool is_safest) const {
-    LoopProblem own = problem;
+    LoopProblem mode_problem = problem;
     const std::string delay = problem.policies.front().delay;
-    own.partition = network_.modes()[mode].partition;
-    own.policies.resize(1);
+    mode_problem.partition = network_.modes()[mode].partition;
+    mode_problem.policies.resize(1);
     if (is_safest) {
-      own.policies.front() = safest_policy(delay);
-      for (const auto& [path, cells] : problem.mode_values[mode]) own.values[path] = cells;
+      mode_problem.policies.front() = safest_policy(delay);
+      for (const auto& [path, cells] : problem.mode_values[mode]) mode_problem.values[path] = cells;
     }
     if (!network_.modes()[mode].is_connected && spec_.silence) {
-      own.policies = silence_policies(spec_);
-      own.policies.front().delay = delay;
+      mode_problem.policies = silence_policies(spec_);
+      mode_problem.policies.front().delay = delay;
     }
-    return own;
+    return mode_problem;
   }
 
   const ProblemSpec& spec_;
@@ -157,11 +157,11 @@ class OnNetwork final : public Schedule {
   std::size_t mode_ = 0;
 };
 
-/// Agents who do as they are told while they are silent, and then what comes after: the last policy.
-class AsTold final : public Schedule {
+/// Agents who follow the rule of silence while they are silent, and then the last policy.
+class RuleFollowing final : public Schedule {
  public:
-  AsTold(const LoopProblem& problem, Policy policy, std::int64_t silent_steps, PointDynamics& dynamics,
-         KeptInputs& controller)
+  RuleFollowing(const LoopProblem& problem, Policy policy, std::int64_t silent_steps, PointDynamics& dynamics,
+                KeptInputs& controller)
       : rule_(problem.policies.size() - 1),
         has_then_(problem.policies.back().make_then != nullptr),
         steps_(problem.start_steps()),
@@ -211,7 +211,7 @@ std::unique_ptr<Schedule> make_schedule(const LoopProblem& problem, Policy polic
                                         PointDynamics& dynamics, KeptInputs& controller) {
   if (problem.network != nullptr) return std::make_unique<OnNetwork>(problem, policy, dynamics, controller);
   if (problem.policies.back().is_anywhere)
-    return std::make_unique<AsTold>(problem, policy, silent_steps, dynamics, controller);
+    return std::make_unique<RuleFollowing>(problem, policy, silent_steps, dynamics, controller);
   return std::make_unique<SelfTriggered>(problem, policy, dynamics, controller);
 }
 

@@ -22,7 +22,7 @@ namespace coordreq {
 }
 
 /// Who is connected from step to step of a run, which policy the agents go by, and what is promised of it.
-/// Each function is told what has happened so far. One object a thread.
+/// Each function is given the trace so far. One object a thread.
 class Schedule {
  public:
   Schedule() = default;
@@ -52,8 +52,8 @@ class Schedule {
   }
 };
 
-/// The agents of a loop: silent as long as they can; on a network that loses steps; or those who do as they
-/// are told (LoopProblem). @param silent_steps of the last: those without a connection
+/// The agents of a loop: silent as long as they can; on a network that loses steps; or those who follow
+/// rules (LoopProblem). @param silent_steps of the last: those without a connection
 /// @pre unchecked: `dynamics` and `controller` outlive the object, as what `problem` points to
 [[nodiscard]] std::unique_ptr<Schedule> make_schedule(const LoopProblem& problem, Policy policy,
                                                       std::int64_t silent_steps, PointDynamics& dynamics,

@@ -9,13 +9,13 @@ namespace coordreq {
 namespace {
 
 /// The indices first, ..., first + length - 1.
-struct Stretch {
+struct IndexSpan {
   std::int64_t first = 0;
   std::int64_t length = 0;
 };
 
 /// The indices that have to be read for a range: all of a periodic dimension where it wraps.
-Stretch stretch_of(const IndexRange& range, std::int64_t count) {
+IndexSpan index_span(const IndexRange& range, std::int64_t count) {
   if (range.last >= count) return {0, count};
   return {range.first, range.last - std::int64_t{range.first} + 1};
 }
@@ -26,11 +26,11 @@ void SetWindow::cover(std::span<const IndexRange> box) {
   bool covered = !block_.first.empty();
   CellBlock wanted;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
-    const Stretch stretch = stretch_of(box[i], grid_[i].count);
-    wanted.first.push_back(stretch.first);
-    wanted.count.push_back(stretch.length);
-    covered = covered && block_.first[i] <= stretch.first &&
-              stretch.first + stretch.length <= block_.first[i] + block_.count[i];
+    const IndexSpan span = index_span(box[i], grid_[i].count);
+    wanted.first.push_back(span.first);
+    wanted.count.push_back(span.length);
+    covered = covered && block_.first[i] <= span.first &&
+              span.first + span.length <= block_.first[i] + block_.count[i];
   }
   if (covered) return;
   block_ = std::move(wanted);
@@ -53,9 +53,9 @@ void SetWindow::add_up() {
   sums_.assign(static_cast<std::size_t>(stride_[0] * (block_.count[0] + 1)), 0);
   Odometer index(block_.count);
   for (const std::uint8_t member : members) {
-    std::int64_t place = 0;
-    for (std::size_t i = 0; i < dimensions; ++i) place += (index[i] + 1) * stride_[i];
-    sums_[static_cast<std::size_t>(place)] = member;
+    std::int64_t position = 0;
+    for (std::size_t i = 0; i < dimensions; ++i) position += (index[i] + 1) * stride_[i];
+    sums_[static_cast<std::size_t>(position)] = member;
     index.advance();
   }
   for (std::size_t i = 0; i < dimensions; ++i) {
@@ -67,7 +67,7 @@ void SetWindow::add_up() {
   }
 }
 
-/// Members in the box by inclusion and exclusion, from dimension i on; `corner` is the place so far.
+/// Members in the box by inclusion and exclusion, from dimension i on; `corner` is the position so far.
 std::int64_t SetWindow::members(std::span<const IndexRange> box, std::size_t i, std::int64_t corner) const {
   if (i == box.size()) return sums_[static_cast<std::size_t>(corner)];
   const std::int64_t count = grid_[i].count;

@@ -12,8 +12,8 @@
 
 namespace coordreq {
 
-/// The part of a set of cells that a question needs, read when it is needed; answers whether boxes lie in it,
-/// each in a time that does not depend on its size, from prefix sums.
+/// The subset of a set of cells that a question needs, read when it is needed; answers whether boxes lie in
+/// it, each in a time that does not depend on its size, from prefix sums.
 class SetWindow : public CellMembers {
  public:
   /// Membership of the cells of a block: 0 or 1.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cell/cell_controller.hpp"
-#include "cell/log_place.hpp"
+#include "cell/log_position.hpp"
 
 namespace coordreq {
 
@@ -28,28 +28,28 @@ class SilenceWatch {
   SilenceWatch(const ResultsReader& results, std::size_t partition, CellController& controller);
 
   /// A first sample.
-  void begin(const LogPlace& place);
+  void begin(const LogPosition& position);
   /// Steps that the agents may still go on alone, kUnbounded without end; nothing outside K.
   [[nodiscard]] std::optional<std::int32_t> countdown() const;
   /// The step from a sample on. @param actions [class] in joint actions of the class; -1: none of these;
   /// nothing: not known
   /// @returns whether agents are silent for longer than their countdown
-  [[nodiscard]] bool leave(const LogPlace& place, Contact contact,
+  [[nodiscard]] bool leave(const LogPosition& position, Contact contact,
                            const std::vector<std::optional<std::int64_t>>& actions);
   /// The sample after a step. @returns whether it tolerates less silence than the countdown promised
-  [[nodiscard]] bool arrive(const LogPlace& place, Contact contact);
+  [[nodiscard]] bool arrive(const LogPosition& position, Contact contact);
   /// The delay of a cell: steps, kUnbounded, -1 outside K, -2 outside S.
   [[nodiscard]] std::int32_t delay(std::int64_t cell) { return steps_.front()(cell); }
 
  private:
   using Steps = std::optional<std::int32_t>;
 
-  [[nodiscard]] std::int32_t most_steps(std::size_t policy, const LogPlace& place);
-  [[nodiscard]] Steps begun(std::size_t policy, const LogPlace& place);
-  [[nodiscard]] bool keeps(std::size_t policy, const LogPlace& place,
+  [[nodiscard]] std::int32_t most_steps(std::size_t policy, const LogPosition& position);
+  [[nodiscard]] Steps begun(std::size_t policy, const LogPosition& position);
+  [[nodiscard]] bool keeps(std::size_t policy, const LogPosition& position,
                            const std::vector<std::optional<std::int64_t>>& actions);
   [[nodiscard]] bool has_aim(std::size_t policy) const { return !policies_[policy].aim.path.empty(); }
-  void look_for_aims(const LogPlace& place);
+  void look_for_aims(const LogPosition& position);
 
   CellController& controller_;
   std::size_t partition_;

@@ -8,7 +8,7 @@
 
 namespace coordreq {
 
-std::vector<const Field*> asked_fields(const ResultsReader& results) {
+std::vector<const Field*> query_fields(const ResultsReader& results) {
   std::vector<const Field*> fields;
   for (const Field& field : answer_fields(results.spec())) {
     if (!field.display.query.name.empty() && results.has(field.path))
@@ -29,14 +29,14 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
   for (const AnswerPolicy& policy : controller_.policies()) {
     if (!policy.delay.empty()) read_values(policy.delay, block, answer);
     if (!policy.trigger.empty()) read_values(policy.trigger, block, answer);
-    const std::size_t parts = policy.is_by_agent ? 1 : results_.partitions().size();
-    for (std::size_t p = 0; p < parts; ++p) {
+    const std::size_t partitions = policy.is_by_agent ? 1 : results_.partitions().size();
+    for (std::size_t p = 0; p < partitions; ++p) {
       const std::string& left = policy.is_on_request ? policy.countdown() : policy.delay;
       const std::int32_t countdown = left.empty() ? 0 : answer.value(left, p);
       answer.actions[policy.name].push_back(controller_.actions(policy, p, cell, countdown));
     }
   }
-  for (const Field* const field : asked_) read_values(field->path, block, answer);
+  for (const Field* const field : query_fields_) read_values(field->path, block, answer);
   return answer;
 }
 

@@ -20,7 +20,7 @@ struct StateAnswer {
   std::vector<Rational> state;
   Location location;
   // The members below are set only where the location is a cell.
-  /// By path, of S, K, collision times, the steps of policies and the fields of asked_fields(): the value at
+  /// By path, of S, K, collision times, the steps of policies and the fields of query_fields(): the value at
   /// the cell, or one for each entry of the leading axis.
   std::map<std::string, std::vector<std::int32_t>> values;
   /// By name of the policy: what it leaves the classes of each partition, [partition][class][action]; or, as
@@ -34,16 +34,16 @@ struct StateAnswer {
   }
 };
 
-/// The fields of the file that are shown as FieldQuery says, in the order of the answers, without the steps of
-/// policies.
-[[nodiscard]] std::vector<const Field*> asked_fields(const ResultsReader& results);
+/// The fields of the file that are displayed as FieldQuery says, in the order of the answers, without the
+/// steps of policies.
+[[nodiscard]] std::vector<const Field*> query_fields(const ResultsReader& results);
 
 /// Answers questions about states. Not thread-safe.
 class StateQuery {
  public:
   /// @pre unchecked: `results` and `team` outlive this object.
   StateQuery(const ResultsReader& results, ThreadTeam& team)
-      : results_(results), controller_(results, team), asked_(asked_fields(results)) {}
+      : results_(results), controller_(results, team), query_fields_(query_fields(results)) {}
 
   /// @param state one value a state of the spec. A state outside of the domain has an answer too.
   /// @throws ResultsError if the file is damaged, or needed actions are neither stored nor computable
@@ -55,7 +55,7 @@ class StateQuery {
 
   const ResultsReader& results_;
   CellController controller_;
-  std::vector<const Field*> asked_;
+  std::vector<const Field*> query_fields_;
 };
 
 /// The box of a cell: its lower and upper ends in every dimension, equal for a discrete one.

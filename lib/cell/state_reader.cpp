@@ -35,10 +35,10 @@ StateReader::StateReader(std::istream& stream, StateNames states, std::string so
 }
 
 RefuseLine StateReader::refusal() const {
-  return [this](const std::string& what) { throw UsageError(what, place()); };
+  return [this](const std::string& what) { throw UsageError(what, location()); };
 }
 
-std::string StateReader::place() const {
+std::string StateReader::location() const {
   return fmt::format("{}, line {}", source_, line_number_);
 }
 
@@ -70,13 +70,13 @@ void StateReader::read_header() {
     if (state == names_.size()) {
       extra_names_.push_back(name);
     } else if (std::find(columns_.begin(), columns_.end(), state) != columns_.end()) {
-      throw UsageError(fmt::format("'{}' is given twice", names_[state]), place());
+      throw UsageError(fmt::format("'{}' is given twice", names_[state]), location());
     }
     columns_.push_back(state);
   }
   for (std::size_t i = 0; i < needed_; ++i) {
     if (std::find(columns_.begin(), columns_.end(), i) == columns_.end())
-      throw UsageError(missing("column", names_[i]), place());
+      throw UsageError(missing("column", names_[i]), location());
   }
   pending_ = false;
 }
@@ -96,7 +96,7 @@ std::vector<Rational> StateReader::csv_state() {
       extra_.push_back({extra_names_[extra_.size()], fields[c]});
     } else {
       is_given_[columns_[c]] = true;
-      state[columns_[c]] = parse_value(fields[c], place() + ", " + names_[columns_[c]]);
+      state[columns_[c]] = parse_value(fields[c], location() + ", " + names_[columns_[c]]);
     }
   }
   return state;
@@ -106,7 +106,7 @@ std::vector<Rational> StateReader::json_state() {
   try {
     const JsonDocument document = JsonDocument::parse(line_, source_);
     const JsonDocument::Node root = document.root();
-    if (!root.is_object()) throw UsageError("expected a JSON object a line", place());
+    if (!root.is_object()) throw UsageError("expected a JSON object a line", location());
     extra_names_.clear();
     extra_.clear();
     for (const std::string& key : root.keys()) {
@@ -122,22 +122,22 @@ std::vector<Rational> StateReader::json_state() {
         state.emplace_back(0);
         continue;
       }
-      if (!root.has(name)) throw UsageError(missing("value", name), place());
+      if (!root.has(name)) throw UsageError(missing("value", name), location());
       const JsonDocument::Node node = root[name];
       if (!node.is_number() && !node.is_text()) {
-        throw UsageError("expected a number or a string", place() + ", " + name);
+        throw UsageError("expected a number or a string", location() + ", " + name);
       }
       const std::string text = node.is_number() ? node.token() : node.text();
-      state.push_back(parse_value(text, place() + ", " + name));
+      state.push_back(parse_value(text, location() + ", " + name));
     }
     return state;
   } catch (const SpecError& error) {
-    // Its place is one in this line alone, or none.
+    // Its location is one in this line alone, or none.
     const std::string what = error.what();
     const std::size_t cut = what.rfind(" (");
     const std::size_t column = what.find(", column ", cut);
     const std::string tail = column == std::string::npos ? "" : what.substr(column, what.size() - 1 - column);
-    throw UsageError(what.substr(0, cut), place() + tail);
+    throw UsageError(what.substr(0, cut), location() + tail);
   }
 }
 

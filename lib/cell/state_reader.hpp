@@ -46,7 +46,7 @@ class StateReader {
   /// Whether the last state was given a value, by the order of the names; else it is 0.
   [[nodiscard]] bool is_given(std::size_t state) const { return is_given_[state]; }
   /// The line of the last state, for messages: "standard input, line 3".
-  [[nodiscard]] std::string place() const;
+  [[nodiscard]] std::string location() const;
 
  private:
   [[nodiscard]] RefuseLine refusal() const;

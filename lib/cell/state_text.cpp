@@ -13,17 +13,17 @@
 namespace coordreq {
 
 std::vector<std::string_view> split_at_commas(std::string_view text) {
-  std::vector<std::string_view> parts;
+  std::vector<std::string_view> items;
   std::size_t begin = 0;
   int depth = 0;
   for (std::size_t i = 0; i <= text.size(); ++i) {
     if (i < text.size() && text[i] == '(') ++depth;
     if (i < text.size() && text[i] == ')') --depth;
     if (i < text.size() && (text[i] != ',' || depth > 0)) continue;
-    parts.push_back(text.substr(begin, i - begin));
+    items.push_back(text.substr(begin, i - begin));
     begin = i + 1;
   }
-  return parts;
+  return items;
 }
 
 namespace {
@@ -92,17 +92,17 @@ StateNames state_names(const SystemSpec& spec) {
 std::vector<Rational> parse_state(std::string_view text, const StateNames& states, const std::string& where) {
   const std::vector<std::string>& names = states.names;
   std::vector<std::optional<Rational>> values(names.size());
-  for (const std::string_view part : split_at_commas(text)) {
-    const std::size_t equals = part.find('=');
+  for (const std::string_view item : split_at_commas(text)) {
+    const std::size_t equals = item.find('=');
     if (equals == std::string_view::npos) {
-      throw UsageError(fmt::format("expected NAME=VALUE, found {}", quote_text(trimmed(part))), where);
+      throw UsageError(fmt::format("expected NAME=VALUE, found {}", quote_text(trimmed(item))), where);
     }
-    if (has_assignment(part.substr(equals + 1)))
-      throw UsageError(fmt::format("expected a comma between states, found {}", quote_text(trimmed(part))),
+    if (has_assignment(item.substr(equals + 1)))
+      throw UsageError(fmt::format("expected a comma between states, found {}", quote_text(trimmed(item))),
                        where);
-    const std::size_t i = state_number(trimmed(part.substr(0, equals)), names, where);
+    const std::size_t i = state_number(trimmed(item.substr(0, equals)), names, where);
     if (values[i]) throw UsageError(fmt::format("'{}' is given twice", names[i]), where);
-    values[i] = parse_value(part.substr(equals + 1), where + ", " + names[i]);
+    values[i] = parse_value(item.substr(equals + 1), where + ", " + names[i]);
   }
   std::vector<Rational> state;
   for (std::size_t i = 0; i < names.size(); ++i) {

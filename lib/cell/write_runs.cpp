@@ -164,7 +164,7 @@ class RunFields {
                 flags({no_sample, {-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}})},
         of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.delay; }));
     for (const AnswerPolicy& policy : policies_) {
-      if (!policy.aim.path.empty()) add_way(policy.aim, no_sample);
+      if (!policy.aim.path.empty()) add_aim(policy.aim, no_sample);
     }
     add_list<std::uint8_t>(
         "/coordinated", ElementType::uint8,
@@ -177,12 +177,12 @@ class RunFields {
                      of_sample(kNothing, [](const Sample& s, std::size_t) { return s.margin; }));
   }
 
-  /// How far it is to the aim of a policy.
-  void add_way(const AnswerPolicy::Aim& aim, const FieldFlag& no_sample) {
+  /// Steps to the aim of a policy.
+  void add_aim(const AnswerPolicy::Aim& aim, const FieldFlag& no_sample) {
     std::vector<FieldFlag> meanings = flags_of(results_.field(aim.path));
     meanings.insert(meanings.begin(), no_sample);
     add_list<std::int32_t>(aim.path, ElementType::int32,
-                           described(aim.path.substr(1) + " of the cell: " + aim.words) +
+                           described(aim.path.substr(1) + " of the cell: " + aim.label) +
                                std::vector<FieldAttribute>{flags(std::move(meanings))},
                            of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.arrival; }));
   }
@@ -228,16 +228,16 @@ class RunFields {
 void write_runs(const std::string& path, const ResultsReader& results, const SimulationOptions& options,
                 const Simulation& simulation, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();
-  std::vector<FieldAttribute> own = {{"partition", simulation.partition},
-                                     {"connection_delay", spec.coordination.connection_delay},
-                                     {"policy", policy_name(options.policy)},
-                                     {"disturbance_policy", disturbance_name(options.disturbance)},
-                                     {"seed", options.seed}};
-  if (options.blind) own.push_back({"blind", std::int64_t{1}});
-  if (options.silent) own.push_back({"silent", options.silent_steps.value_or(-1)});
+  std::vector<FieldAttribute> attributes = {{"partition", simulation.partition},
+                                            {"connection_delay", spec.coordination.connection_delay},
+                                            {"policy", policy_name(options.policy)},
+                                            {"disturbance_policy", disturbance_name(options.disturbance)},
+                                            {"seed", options.seed}};
+  if (options.blind) attributes.push_back({"blind", std::int64_t{1}});
+  if (options.silent) attributes.push_back({"silent", options.silent_steps.value_or(-1)});
   const RunFields runs(results, options, simulation);
-  write_fields(path, {.words = "the runs", .filetype = "coordreq-runs", .version = {1, 0}},
-               header_attributes(spec) + own, spec, runs.fields, runs.values, team);
+  write_fields(path, {.label = "the runs", .filetype = "coordreq-runs", .version = {1, 0}},
+               header_attributes(spec) + attributes, spec, runs.fields, runs.values, team);
 }
 
 }  // namespace coordreq

@@ -65,7 +65,7 @@ void fill_action_bits(const Controller& controller, const ActionGrouping& groupi
                       std::uint64_t begin, std::uint64_t count, void* out) {
   const auto row_bytes = static_cast<std::uint64_t>(controller.engine->row_length() * grouping[c].bytes());
   auto* target = static_cast<std::uint8_t*>(out);
-  // Row by row: a stretch may begin and end inside a row, and memory stays small.
+  // Row by row: a segment may begin and end inside a row, and memory stays small.
   while (count > 0) {
     const std::uint64_t row = begin / row_bytes;
     const std::uint64_t offset = begin % row_bytes;

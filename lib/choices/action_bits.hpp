@@ -18,7 +18,7 @@ namespace coordreq {
                                                     const ActionGrouping& grouping, std::size_t c,
                                                     std::int64_t first_row, std::int64_t last_row);
 
-/// Fills the stretch [begin, begin + count) of these bytes over the whole grid, row-major.
+/// Fills the segment [begin, begin + count) of these bytes over the whole grid, row-major.
 void fill_action_bits(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
                       std::uint64_t begin, std::uint64_t count, void* out);
 

@@ -37,8 +37,8 @@ void controller_row(const Controller& controller, const LevelRows<Level>& levels
     const Level* const least = posts.minimum(tuple.slice_ids(), lanes, 0);
     std::fill(out.begin(), out.end(), 0);
     if (controller.approaches) {
-      const Level* const own = bounds_of(controller, levels).row(row);
-      posts.kernels().above_bits(least, own + lanes.begin, out.data() + word, lanes.size());
+      const Level* const bounds = bounds_of(controller, levels).row(row);
+      posts.kernels().above_bits(least, bounds + lanes.begin, out.data() + word, lanes.size());
     } else {
       posts.kernels().top_bits(least, out.data() + word, lanes.size());
     }

@@ -54,7 +54,7 @@ bool ForbiddenChoices::find(const RowPlace& place, const RowGroups& groups,
   return any_set(found);
 }
 
-/// Joins the masks of the actions that `allow` does not tell apart.
+/// Joins the masks of the actions that `allow` does not distinguish.
 void ForbiddenChoices::join_groups(std::size_t c, const ActionGroups& groups, const std::vector<Word>& masks,
                                    Workspace& work) const {
   const ActionGroups& class_groups = *work.groups.classes[c];

@@ -12,11 +12,11 @@ namespace coordreq {
 /// permits to each agent.
 [[nodiscard]] bool allow_joins_agents(const ProblemSpec& spec);
 
-/// Whether agents who act by themselves may do together what `allow` forbids.
+/// Whether agents who act independently may do together what `allow` forbids.
 [[nodiscard]] bool may_forbid_choices(const ProblemSpec& spec);
 
 /// {x : the product of the sets from which the classes choose at x holds a joint input that `allow` forbids}.
-/// Such a joint input counts as blocked (contract, "Layers"): where classes act by themselves, each may take
+/// Such a joint input counts as blocked (contract, "Layers"): where classes act independently, each may take
 /// its action of some permitted joint input, and all together a forbidden one. Joint inputs that a controller
 /// file does not list are not forbidden.
 ///
@@ -31,7 +31,7 @@ class ForbiddenChoices {
   /// The buffers of one thread.
   struct Workspace {
     RowGroups groups;
-    std::vector<std::vector<Word>> masks;  ///< [class] one row for each group that `allow` tells apart
+    std::vector<std::vector<Word>> masks;  ///< [class] one row for each group that `allow` distinguishes
     std::vector<std::vector<Word>>
         open;  ///< [class] the cells where the choices of the classes up to it are possible
     std::vector<std::uint8_t> joined;

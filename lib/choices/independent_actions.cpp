@@ -29,12 +29,12 @@ std::size_t choose_fastest(const ActionGrouping& grouping) {
 
 template <class Level>
 IndependentActions<Level>::IndependentActions(const Projections& projections, const CellSet& invariant,
-                                              int workers, Tells tells)
+                                              int workers, LostLevels lost_levels)
     : projections_(projections),
       grouping_(projections.grouping()),
       boxes_(grouping_),
       invariant_(invariant),
-      tells_(tells),
+      lost_levels_(lost_levels),
       fastest_(choose_fastest(grouping_)),
       work_(static_cast<std::size_t>(workers)) {}
 
@@ -43,7 +43,7 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
                                             Level* next, int worker) {
   Workspace& work = work_[static_cast<std::size_t>(worker)];
   constexpr Level kTop = PostReader<Level>::kTop;
-  if (tells_ == Tells::whether) {
+  if (lost_levels_ == LostLevels::flag) {
     if (!is_open(old, posts.lanes())) return false;
     const auto lost_or_not = [](Level level) { return level == kTop ? kTop : Level{0}; };
     std::transform(old, old + posts.lanes(), next, lost_or_not);
@@ -93,15 +93,15 @@ void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader
   work.is_moved = projections_.find_shift(place.row, work.shift);
   work.box.resize(engine.grid());
   work.labels = nullptr;
-  for (std::size_t p = 0; p < work.row.parts.size(); ++p) {
+  for (std::size_t p = 0; p < work.row.subsets.size(); ++p) {
     if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)
       enter_page(work.row.pages[p / IndependentPosts::kLabelsOfPage], posts.lanes(), work);
     work.label = static_cast<Level>(p % IndependentPosts::kLabelsOfPage + 1);
-    const IndependentPosts::Part& part = work.row.parts[p];
+    const IndependentPosts::Subset& subset = work.row.subsets[p];
     if (work.labels != nullptr &&
-        !is_open(next + part.begin, static_cast<std::size_t>(part.end - part.begin)))
+        !is_open(next + subset.begin, static_cast<std::size_t>(subset.end - subset.begin)))
       continue;
-    lower_by_class(part, 0, posts, next, work);
+    lower_by_class(subset, 0, posts, next, work);
   }
 }
 
@@ -121,19 +121,19 @@ void IndependentActions<Level>::enter_page(const std::uint8_t* labels, std::size
 
 /// Goes through all choices of a box for class c and the classes after it.
 template <class Level>
-void IndependentActions<Level>::lower_by_class(const IndependentPosts::Part& part, std::size_t c,
+void IndependentActions<Level>::lower_by_class(const IndependentPosts::Subset& subset, std::size_t c,
                                                PostReader<Level>& posts, Level* next, Workspace& work) const {
-  if (c == grouping_.size()) return lower_by_box(part, posts, next, work);
-  const IndependentPosts::Boxes& boxes = work.row.lists[part.boxes[c]];
+  if (c == grouping_.size()) return lower_by_box(subset, posts, next, work);
+  const IndependentPosts::Boxes& boxes = work.row.lists[subset.boxes[c]];
   for (std::size_t i = 0; i < boxes.count; ++i) {
     boxes_.put(c, boxes[i], work.box);
     if (work.is_moved) boxes_.move(c, work.shift, work.box);
-    lower_by_class(part, c + 1, posts, next, work);
+    lower_by_class(subset, c + 1, posts, next, work);
   }
 }
 
 template <class Level>
-void IndependentActions<Level>::lower_by_box(const IndependentPosts::Part& part, PostReader<Level>& posts,
+void IndependentActions<Level>::lower_by_box(const IndependentPosts::Subset& subset, PostReader<Level>& posts,
                                              Level* next, Workspace& work) const {
   if (work.labels == nullptr) {
     const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
@@ -142,9 +142,10 @@ void IndependentActions<Level>::lower_by_box(const IndependentPosts::Part& part,
     posts.kernels().minimum(pair, 2, next, n);
     return;
   }
-  if (!is_open(next + part.begin, static_cast<std::size_t>(part.end - part.begin))) return;
-  posts.kernels().lower_at(posts.minimum(work.box, part.begin, part.end), work.labels + part.begin,
-                           work.label, next + part.begin, static_cast<std::size_t>(part.end - part.begin));
+  if (!is_open(next + subset.begin, static_cast<std::size_t>(subset.end - subset.begin))) return;
+  posts.kernels().lower_at(posts.minimum(work.box, subset.begin, subset.end), work.labels + subset.begin,
+                           work.label, next + subset.begin,
+                           static_cast<std::size_t>(subset.end - subset.begin));
 }
 
 template <class Level>

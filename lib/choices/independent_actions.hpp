@@ -17,16 +17,16 @@ namespace coordreq {
 template <class Level>
 class IndependentActions final : public RowOperator<Level> {
  public:
-  /// How levels of lost cells are told apart.
-  enum class Tells : std::uint8_t {
+  /// What the levels of lost cells say.
+  enum class LostLevels : std::uint8_t {
     steps,  ///< as above
     /// Whether a cell is lost: 1 for each that is, so that a row is done as soon as all of its cells are.
     /// Levels begin with 0 for lost cells and kTop for all others.
-    whether,
+    flag,
   };
   /// @pre unchecked: all outlive this object.
   IndependentActions(const Projections& projections, const CellSet& invariant, int workers,
-                     Tells tells = Tells::steps);
+                     LostLevels lost_levels = LostLevels::steps);
 
   bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override;
@@ -65,12 +65,13 @@ class IndependentActions final : public RowOperator<Level> {
   void lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
   /// Whether some of these lanes can still be lowered to a level that makes a difference.
   [[nodiscard]] bool is_open(const Level* next, std::size_t lanes) const {
-    return tells_ == Tells::steps || std::find(next, next + lanes, PostReader<Level>::kTop) != next + lanes;
+    return lost_levels_ == LostLevels::steps ||
+           std::find(next, next + lanes, PostReader<Level>::kTop) != next + lanes;
   }
   void enter_page(const std::uint8_t* labels, std::size_t lanes, Workspace& work) const;
-  void lower_by_class(const IndependentPosts::Part& part, std::size_t c, PostReader<Level>& posts,
+  void lower_by_class(const IndependentPosts::Subset& subset, std::size_t c, PostReader<Level>& posts,
                       Level* next, Workspace& work) const;
-  void lower_by_box(const IndependentPosts::Part& part, PostReader<Level>& posts, Level* next,
+  void lower_by_box(const IndependentPosts::Subset& subset, PostReader<Level>& posts, Level* next,
                     Workspace& work) const;
   void lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
   void lower_by_projections(const RowPlace& place, PostReader<Level>& posts, Level* next,
@@ -87,7 +88,7 @@ class IndependentActions final : public RowOperator<Level> {
   const ActionGrouping& grouping_;
   RowBoxes boxes_;
   const CellSet& invariant_;
-  Tells tells_;
+  LostLevels lost_levels_;
   std::size_t fastest_;  ///< class
   std::vector<Workspace> work_;
 };

@@ -24,73 +24,73 @@ void IndependentPosts::find_worst(const RowBoxes& boxes, const ActionGroups& gro
   }
 }
 
-/// Cuts the row into parts, in each of which the same of the worst groups are reasonable.
-void IndependentPosts::find_parts(const std::vector<Word>& masks, ConstRow invariant) {
-  parts_ = 1;
-  part_masks_.assign(invariant.begin(), invariant.end());
-  part_groups_.assign(worst_.size(), 0);
+/// Cuts the row into subsets, in each of which the same of the worst groups are reasonable.
+void IndependentPosts::find_subsets(const std::vector<Word>& masks, ConstRow invariant) {
+  subsets_ = 1;
+  subset_masks_.assign(invariant.begin(), invariant.end());
+  subset_groups_.assign(worst_.size(), 0);
   const std::size_t groups = worst_.size();
   for (std::size_t k = 0; k < groups; ++k) {
     const ConstRow mask = mask_of(masks, worst_[k]);
-    const std::size_t before = parts_;
+    const std::size_t before = subsets_;
     for (std::size_t p = 0; p < before; ++p) {
-      const int overlap = kernels_->compare(part_masks_.data() + p * words_, mask.data(), words_);
+      const int overlap = kernels_->compare(subset_masks_.data() + p * words_, mask.data(), words_);
       const bool is_inside_mask = overlap == 1;
-      if (overlap == 3) split_part(p, mask);
-      if ((overlap & 1) != 0) part_groups_[(is_inside_mask ? p : parts_ - 1) * groups + k] = 1;
+      if (overlap == 3) split_subset(p, mask);
+      if ((overlap & 1) != 0) subset_groups_[(is_inside_mask ? p : subsets_ - 1) * groups + k] = 1;
     }
   }
 }
 
-/// Moves the cells of `mask` from a part to a new one with the same groups.
-void IndependentPosts::split_part(std::size_t p, ConstRow mask) {
+/// Moves the cells of `mask` from a subset to a new one with the same groups.
+void IndependentPosts::split_subset(std::size_t p, ConstRow mask) {
   const std::size_t groups = worst_.size();
-  part_masks_.resize((parts_ + 1) * words_);
-  part_groups_.resize((parts_ + 1) * groups);
-  Word* const part = part_masks_.data() + p * words_;
-  Word* const other = part_masks_.data() + parts_ * words_;
+  subset_masks_.resize((subsets_ + 1) * words_);
+  subset_groups_.resize((subsets_ + 1) * groups);
+  Word* const subset = subset_masks_.data() + p * words_;
+  Word* const other = subset_masks_.data() + subsets_ * words_;
   for (std::size_t w = 0; w < words_; ++w) {
-    other[w] = part[w] & mask[w];
-    part[w] &= ~mask[w];
+    other[w] = subset[w] & mask[w];
+    subset[w] &= ~mask[w];
   }
-  std::copy_n(part_groups_.data() + p * groups, groups, part_groups_.data() + parts_ * groups);
-  ++parts_;
+  std::copy_n(subset_groups_.data() + p * groups, groups, subset_groups_.data() + subsets_ * groups);
+  ++subsets_;
 }
 
-/// Finds the boxes that the groups of each part fill together; parts with equal boxes become one.
-void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& class_parts) {
-  class_parts.lists.clear();
-  class_parts.masks.clear();
-  for (std::size_t p = 0; p < parts_; ++p) {
+/// Finds the boxes that the groups of each subset fill together; subsets with equal boxes become one.
+void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassLists& class_lists) {
+  class_lists.lists.clear();
+  class_lists.masks.clear();
+  for (std::size_t p = 0; p < subsets_; ++p) {
     list_.dimensions = boxes.moved(c).size();
     list_.ranges.clear();
     for (std::size_t k = 0; k < worst_.size(); ++k) {
-      if (part_groups_[p * worst_.size() + k] == 0) continue;
+      if (subset_groups_[p * worst_.size() + k] == 0) continue;
       const auto ranges = boxes.ranges(c, worst_[k]);
       list_.ranges.insert(list_.ranges.end(), ranges.begin(), ranges.end());
     }
-    if (list_.ranges.empty()) continue;  // all of its actions in the part leave for good
+    if (list_.ranges.empty()) continue;  // all of its actions in the subset leave for good
     if (joins_boxes_) merge_boxes(list_, longest_);
-    const auto known = std::find_if(class_parts.lists.begin(), class_parts.lists.end(),
+    const auto known = std::find_if(class_lists.lists.begin(), class_lists.lists.end(),
                                     [&](const BoxList& other) { return other.ranges == list_.ranges; });
-    const auto number = static_cast<std::size_t>(known - class_parts.lists.begin());
-    if (known == class_parts.lists.end()) {
-      class_parts.lists.push_back(list_);
-      class_parts.masks.resize(class_parts.masks.size() + words_, 0);
+    const auto number = static_cast<std::size_t>(known - class_lists.lists.begin());
+    if (known == class_lists.lists.end()) {
+      class_lists.lists.push_back(list_);
+      class_lists.masks.resize(class_lists.masks.size() + words_, 0);
     }
     for (std::size_t w = 0; w < words_; ++w)
-      class_parts.masks[number * words_ + w] |= part_masks_[p * words_ + w];
+      class_lists.masks[number * words_ + w] |= subset_masks_[p * words_ + w];
   }
 }
 
-/// Numbers the combinations of the classes' parts that occur.
+/// Numbers the combinations of the classes' subsets that occur.
 void IndependentPosts::join_classes(ConstRow invariant) {
   std::size_t combinations = 1;
-  for (const ClassParts& class_parts : classes_) combinations *= class_parts.lists.size();
+  for (const ClassLists& class_lists : classes_) combinations *= class_lists.lists.size();
   joint_.clear();
   is_whole_ =
-      combinations == 1 && std::all_of(classes_.begin(), classes_.end(), [&](const ClassParts& class_parts) {
-        return is_subset(invariant, class_parts.masks);
+      combinations == 1 && std::all_of(classes_.begin(), classes_.end(), [&](const ClassLists& class_lists) {
+        return is_subset(invariant, class_lists.masks);
       });
   if (is_whole_) joint_.push_back({0, 0, std::vector<std::uint32_t>(classes_.size(), 0)});
   if (is_whole_ || combinations == 0) return;
@@ -110,19 +110,19 @@ void IndependentPosts::join_masks(std::size_t c) {
   const Word* const mask = mask_.data() + c * words_;
   if (c == classes_.size()) {
     joint_.push_back({INT64_MAX, 0, chosen_});
-    JointPart& part = joint_.back();
+    JointSubset& subset = joint_.back();
     for_each_bit({mask, words_}, [&](std::int64_t lane) {
       labels_[static_cast<std::size_t>(lane)] = static_cast<std::int32_t>(joint_.size());
-      part.begin = std::min(part.begin, lane);
-      part.end = lane + 1;
+      subset.begin = std::min(subset.begin, lane);
+      subset.end = lane + 1;
     });
     return;
   }
   for (std::size_t i = 0; i < classes_[c].lists.size(); ++i) {
-    const Word* const own = classes_[c].masks.data() + i * words_;
+    const Word* const class_mask = classes_[c].masks.data() + i * words_;
     Word* const both = mask_.data() + (c + 1) * words_;
     Word any = 0;
-    for (std::size_t w = 0; w < words_; ++w) any |= both[w] = mask[w] & own[w];
+    for (std::size_t w = 0; w < words_; ++w) any |= both[w] = mask[w] & class_mask[w];
     if (any == 0) continue;
     chosen_.push_back(static_cast<std::uint32_t>(i));
     join_masks(c + 1);
@@ -133,28 +133,28 @@ void IndependentPosts::join_masks(std::size_t c) {
 void IndependentPosts::join_lanes() {
   joint_.assign(1, {0, 0, {}});
   labels_.assign(lanes(), 1);
-  for (const ClassParts& class_parts : classes_) {
-    own_labels_.assign(lanes(), 0);
-    for (std::size_t i = 0; i < class_parts.lists.size(); ++i) {
-      for_each_bit({class_parts.masks.data() + i * words_, words_}, [&](std::int64_t lane) {
-        own_labels_[static_cast<std::size_t>(lane)] = static_cast<std::uint32_t>(i + 1);
+  for (const ClassLists& class_lists : classes_) {
+    class_labels_.assign(lanes(), 0);
+    for (std::size_t i = 0; i < class_lists.lists.size(); ++i) {
+      for_each_bit({class_lists.masks.data() + i * words_, words_}, [&](std::int64_t lane) {
+        class_labels_[static_cast<std::size_t>(lane)] = static_cast<std::uint32_t>(i + 1);
       });
     }
-    const std::size_t choices = class_parts.lists.size() + 1;
+    const std::size_t choices = class_lists.lists.size() + 1;
     joint_before_.swap(joint_);
     joint_.clear();
     numbers_.assign((joint_before_.size() + 1) * choices, 0);
     for (std::size_t lane = 0; lane < labels_.size(); ++lane) {
       std::int32_t& label = labels_[lane];
-      if (label == 0 || own_labels_[lane] == 0) {
+      if (label == 0 || class_labels_[lane] == 0) {
         label = 0;
         continue;
       }
-      std::int32_t& number = numbers_[static_cast<std::size_t>(label) * choices + own_labels_[lane]];
+      std::int32_t& number = numbers_[static_cast<std::size_t>(label) * choices + class_labels_[lane]];
       if (number == 0) {
         joint_.push_back(
             {static_cast<std::int64_t>(lane), 0, joint_before_[static_cast<std::size_t>(label) - 1].lists});
-        joint_.back().lists.push_back(own_labels_[lane] - 1);
+        joint_.back().lists.push_back(class_labels_[lane] - 1);
         number = static_cast<std::int32_t>(joint_.size());
       }
       label = number;
@@ -178,35 +178,35 @@ void IndependentPosts::pack(const RowBoxes& boxes, const RowGroups& groups,
     for (const std::size_t t : boxes.moved(c))
       longest_.push_back(grid[t].periodic() ? grid[t].count : INT32_MAX);
     find_worst(boxes, *groups.classes[c], c, masks[c]);
-    find_parts(masks[c], invariant);
+    find_subsets(masks[c], invariant);
     find_lists(boxes, c, classes_[c]);
   }
   join_classes(invariant);
   pack_lists(packed);
-  pack_parts(packed);
+  pack_subsets(packed);
 }
 
 void IndependentPosts::pack_lists(std::vector<Word>& packed) const {
-  for (const ClassParts& class_parts : classes_) {
-    packed.push_back(class_parts.lists.size());
-    for (const BoxList& list : class_parts.lists) {
+  for (const ClassLists& class_lists : classes_) {
+    packed.push_back(class_lists.lists.size());
+    for (const BoxList& list : class_lists.lists) {
       packed.push_back(list.dimensions == 0 ? 1 : list.size());
       for (const IndexRange& range : list.ranges) packed.push_back(pack_range(range));
     }
   }
 }
 
-void IndependentPosts::pack_parts(std::vector<Word>& packed) const {
+void IndependentPosts::pack_subsets(std::vector<Word>& packed) const {
   packed.push_back(joint_.size());
   std::size_t offset = 0;
   std::vector<std::size_t> first_list;
-  for (const ClassParts& class_parts : classes_) {
+  for (const ClassLists& class_lists : classes_) {
     first_list.push_back(offset);
-    offset += class_parts.lists.size();
+    offset += class_lists.lists.size();
   }
-  for (const JointPart& part : joint_) {
-    packed.push_back(static_cast<Word>(part.begin) | static_cast<Word>(part.end) << 32U);
-    for (std::size_t c = 0; c < part.lists.size(); ++c) packed.push_back(first_list[c] + part.lists[c]);
+  for (const JointSubset& subset : joint_) {
+    packed.push_back(static_cast<Word>(subset.begin) | static_cast<Word>(subset.end) << 32U);
+    for (std::size_t c = 0; c < subset.lists.size(); ++c) packed.push_back(first_list[c] + subset.lists[c]);
   }
   const std::size_t pages = is_whole_ ? 0 : (joint_.size() + kLabelsOfPage - 1) / kLabelsOfPage;
   packed.push_back(pages);
@@ -228,7 +228,7 @@ void IndependentPosts::unpack(std::span<const Word> packed, const RowBoxes& boxe
                               std::size_t words, Row& row) {
   std::size_t at = 0;
   row.lists.clear();
-  row.parts.clear();
+  row.subsets.clear();
   row.pages.clear();
   for (std::size_t c = 0; c < classes; ++c) {
     for (Word left = packed[at++]; left > 0; --left) {
@@ -240,8 +240,8 @@ void IndependentPosts::unpack(std::span<const Word> packed, const RowBoxes& boxe
   }
   for (Word left = packed[at++]; left > 0; --left) {
     const Word range = packed[at++];
-    row.parts.push_back({static_cast<std::int64_t>(range & 0xFFFFFFFFU),
-                         static_cast<std::int64_t>(range >> 32U), packed.subspan(at, classes)});
+    row.subsets.push_back({static_cast<std::int64_t>(range & 0xFFFFFFFFU),
+                           static_cast<std::int64_t>(range >> 32U), packed.subspan(at, classes)});
     at += classes;
   }
   const std::size_t page_words = words * kLevelBlock / sizeof(Word) + kLevelBlock / sizeof(Word);

@@ -12,12 +12,12 @@
 namespace coordreq {
 
 /// The union of the posts under IND_C for one row, where posts are products: the cells of the row fall into
-/// parts, in each of which the classes have the same choices, and for each part there is a list of boxes for
-/// each class. The posts of a cell are products of a box for each class, so is their union, and a box that
-/// several actions fill together is tested once (FastPaths::joined_boxes).
+/// subsets, in each of which the classes have the same choices, and for each subset there is a list of boxes
+/// for each class. The posts of a cell are products of a box for each class, so is their union, and a box
+/// that several actions fill together is tested once (FastPaths::joined_boxes).
 ///
-/// Parts are told apart by one label a cell, in pages: a row of the gridworld has some 44 parts, at steps of
-/// 5 mm up to 136.
+/// Subsets are distinguished by one label a cell, in pages: a row of the gridworld has some 44 subsets, at
+/// steps of 5 mm up to 136.
 class IndependentPosts {
  public:
   static constexpr std::size_t kLabelsOfPage = 255;  ///< 1, ..., 255; 0 for cells of other pages
@@ -32,16 +32,16 @@ class IndependentPosts {
       return ranges.subspan(i * dimensions, dimensions);
     }
   };
-  struct Part {
+  struct Subset {
     std::int64_t begin = 0;  ///< lanes of its cells are in [begin, end)
     std::int64_t end = 0;
     std::span<const Word> boxes;  ///< [class] index of its list in Row::lists
   };
   /// Views of a packed row.
   struct Row {
-    std::vector<Part> parts;  ///< [page * kLabelsOfPage + label - 1]
+    std::vector<Subset> subsets;  ///< [page * kLabelsOfPage + label - 1]
     std::vector<Boxes> lists;
-    /// [page] label of each lane; whole blocks, as LevelKernels ask. Empty: there is one part, all of K.
+    /// [page] label of each lane; whole blocks, as LevelKernels ask. Empty: there is one subset, all of K.
     std::vector<const std::uint8_t*> pages;
   };
 
@@ -57,22 +57,22 @@ class IndependentPosts {
                      std::size_t words, Row& row);
 
  private:
-  /// The parts of the row for one class.
-  struct ClassParts {
+  /// The subsets of the row for one class.
+  struct ClassLists {
     std::vector<BoxList> lists;  ///< different lists
     std::vector<Word> masks;     ///< [list * words_] the cells that have the list
   };
 
   void find_worst(const RowBoxes& boxes, const ActionGroups& groups, std::size_t c,
                   const std::vector<Word>& masks);
-  void find_parts(const std::vector<Word>& masks, ConstRow invariant);
-  void split_part(std::size_t p, ConstRow mask);
-  void find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& class_parts);
+  void find_subsets(const std::vector<Word>& masks, ConstRow invariant);
+  void split_subset(std::size_t p, ConstRow mask);
+  void find_lists(const RowBoxes& boxes, std::size_t c, ClassLists& class_lists);
   void join_classes(ConstRow invariant);
   void join_masks(std::size_t c);
   void join_lanes();
   void pack_lists(std::vector<Word>& packed) const;
-  void pack_parts(std::vector<Word>& packed) const;
+  void pack_subsets(std::vector<Word>& packed) const;
 
   [[nodiscard]] ConstRow mask_of(const std::vector<Word>& masks, std::uint32_t g) const {
     return {masks.data() + g * words_, words_};
@@ -85,22 +85,23 @@ class IndependentPosts {
   std::vector<std::uint32_t> worst_;
   std::vector<std::int64_t> longest_;
   BoxList list_;
-  std::size_t parts_ = 0;
-  std::vector<Word> part_masks_;           ///< [part * words_]
-  std::vector<std::uint8_t> part_groups_;  ///< [part * worst groups] 1 if the group is reasonable in the part
-  std::vector<ClassParts> classes_;
-  std::vector<std::int32_t> labels_;  ///< [lane] 1 + number of its joint part, or 0
-  struct JointPart {
+  std::size_t subsets_ = 0;
+  std::vector<Word> subset_masks_;  ///< [subset * words_]
+  std::vector<std::uint8_t>
+      subset_groups_;  ///< [subset * worst groups] 1 if the group is reasonable in the subset
+  std::vector<ClassLists> classes_;
+  std::vector<std::int32_t> labels_;  ///< [lane] 1 + number of its joint subset, or 0
+  struct JointSubset {
     std::int64_t begin;
     std::int64_t end;
     std::vector<std::uint32_t> lists;  ///< [class]
   };
-  bool is_whole_ = false;  ///< there is one joint part, all of K
-  std::vector<JointPart> joint_;
-  std::vector<JointPart> joint_before_;
+  bool is_whole_ = false;  ///< there is one joint subset, all of K
+  std::vector<JointSubset> joint_;
+  std::vector<JointSubset> joint_before_;
   std::vector<Word> mask_;             ///< [class * words_] cells of the choices so far
   std::vector<std::uint32_t> chosen_;  ///< [class] the choices so far
-  std::vector<std::uint32_t> own_labels_;
+  std::vector<std::uint32_t> class_labels_;
   std::vector<std::int32_t> numbers_;
 };
 

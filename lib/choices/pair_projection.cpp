@@ -26,11 +26,11 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
   applies_ = true;
   leader_ = boxes.moved(0).back() < boxes.moved(1).back() ? 0 : 1;
   follower_ = 1 - leader_;
-  const std::size_t own = boxes.moved(leader_).size();
+  const std::size_t moved = boxes.moved(leader_).size();
   // Dimensions ascend: the leader has the first ones if its last one comes before all of the follower's.
   const bool leads = boxes.moved(leader_).back() < boxes.moved(follower_).front() &&
-                     own <= engine_.across() && engine_.is_closed(own);
-  leading_ = leads ? own : 0;
+                     moved <= engine_.across() && engine_.is_closed(moved);
+  leading_ = leads ? moved : 0;
   unit_rows_ = leads ? engine_.grid().row_stride(leading_ - 1) : 1;
   words_ = engine_.row_words();
   shape_ = engine_.posts().shape;
@@ -38,9 +38,9 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
   find_beyond();
   // Room for the whole last word, wherever a window begins, and the one after it.
   const RowMargins fastest = shape_.dimensions.back().margins;
-  taken_words_ = static_cast<std::size_t>(fastest.before + fastest.after) / kBits + words_ + 2;
-  plane_words_ = static_cast<std::size_t>(margins_.before + margins_.after) / kBits + taken_words_ + 2;
-  found_.resize(words_);
+  gathered_words_ = static_cast<std::size_t>(fastest.before + fastest.after) / kBits + words_ + 2;
+  plane_words_ = static_cast<std::size_t>(margins_.before + margins_.after) / kBits + gathered_words_ + 2;
+  result_.resize(words_);
   if (!leads) continued_.resize(static_cast<std::size_t>(std::min(engine_.rows(), kContinued)));
   box_.resize(engine_.grid());
 }
@@ -55,10 +55,10 @@ void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
   row_lists_.clear();
   list(groups, leader_, invariant, leaders_);
   list(groups, follower_, invariant, followers_);
-  for (Candidate& candidate : followers_) place_follower(candidate);
+  for (Candidate& candidate : followers_) locate_follower(candidate);
   for (std::size_t c = 0; c < 2; ++c) masks[c].assign(groups.classes[c]->size() * words_, 0);
   for (Candidate& leader : leaders_) {
-    is_taken_.assign(row_boxes_.size(), 0);
+    is_gathered_.assign(row_boxes_.size(), 0);
     for (Candidate& follower : followers_) {
       // Each class tries the smallest boxes of the other.
       const bool for_leader = follower.is_minimal && !leader.is_full;
@@ -111,16 +111,16 @@ const std::vector<Word>& PairProjection::continued(std::int64_t row) {
 /// are the numbers of its lanes.
 void PairProjection::find_beyond() {
   LevelRows<std::uint32_t> numbers(1, shape_);
-  std::vector<std::uint32_t> own;
+  std::vector<std::uint32_t> cleared;
   numbers.change_row(0, [&](std::uint32_t* row) {
     std::iota(row, row + shape_.length(), std::uint32_t{1});
     numbers.clear_gaps(row);
-    own.assign(row - margins_.before, row + shape_.length() + margins_.after);
+    cleared.assign(row - margins_.before, row + shape_.length() + margins_.after);
   });
   const std::uint32_t* const row = numbers.row(0);
-  for (std::size_t lane = 0; lane < own.size(); ++lane) {
+  for (std::size_t lane = 0; lane < cleared.size(); ++lane) {
     const std::uint32_t number = row[static_cast<std::int64_t>(lane) - margins_.before];
-    if (own[lane] != 0 || number == 0) continue;
+    if (cleared[lane] != 0 || number == 0) continue;
     beyond_.push_back(
         {lane, number == LevelRows<std::uint32_t>::kTop ? -1 : static_cast<std::int64_t>(number) - 1});
   }
@@ -157,18 +157,18 @@ void PairProjection::list(const RowGroups& groups, std::size_t c, ConstRow invar
     candidate.is_minimal = std::binary_search(class_groups.minimal.begin(), class_groups.minimal.end(), g);
     candidate.is_full = false;
     candidate.reach.assign(invariant.begin(), invariant.end());
-    found_.assign(words_, 0);
+    result_.assign(words_, 0);
     for (std::size_t i = 0; i < moved.size(); ++i) {
       if (moved[i] >= engine_.across())
-        mark_leaving(shape_, moved[i] - engine_.across(), boxes_.ranges(c, g)[i], found_);
+        mark_leaving(shape_, moved[i] - engine_.across(), boxes_.ranges(c, g)[i], result_);
     }
-    for (std::size_t w = 0; w < words_; ++w) candidate.reach[w] &= ~found_[w];
+    for (std::size_t w = 0; w < words_; ++w) candidate.reach[w] &= ~result_[w];
   }
   candidates.resize(count);
 }
 
 /// Finds the rows and lanes that a follower reads within the unit.
-void PairProjection::place_follower(Candidate& candidate) {
+void PairProjection::locate_follower(Candidate& candidate) {
   const auto ranges = boxes_.ranges(follower_, candidate.group);
   const auto all_but_one = ranges.first(ranges.size() - 1);
   candidate.window = ranges.back();
@@ -179,8 +179,8 @@ void PairProjection::place_follower(Candidate& candidate) {
   if (known == row_boxes_.end()) {
     row_boxes_.emplace_back(all_but_one.begin(), all_but_one.end());
     row_lists_.emplace_back();
-    if (leading_ > 0) list_places(all_but_one, row_lists_.back());
-    taken_.resize(row_boxes_.size() * taken_words_);
+    if (leading_ > 0) list_positions(all_but_one, row_lists_.back());
+    gathered_.resize(row_boxes_.size() * gathered_words_);
   }
 }
 
@@ -200,39 +200,39 @@ void PairProjection::list_lanes(std::span<const IndexRange> windows) {
 }
 
 /// Finds the rows of a box, with these lanes in each.
-void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Place>& places) {
+void PairProjection::list_positions(std::span<const IndexRange> box, std::vector<Position>& positions) {
   const std::size_t windows = engine_.along() - 1;
   list_lanes(box.last(windows));
   for_each_row(engine_.grid(), leading_, box.first(box.size() - windows), counter_, [&](std::int64_t row) {
-    for (const std::int64_t lane : lanes_) places.push_back({row, static_cast<std::size_t>(lane)});
+    for (const std::int64_t lane : lanes_) positions.push_back({row, static_cast<std::size_t>(lane)});
   });
 }
 
-/// found_ = the cells of `invariant` from which the box of leader and follower lies in K.
+/// result_ = the cells of `invariant` from which the box of leader and follower lies in K.
 void PairProjection::erode(const Candidate& leader, const Candidate& follower, ConstRow invariant) {
-  Word* const rows = taken_.data() + follower.rows * taken_words_;
-  if (is_taken_[follower.rows] == 0 && leading_ > 0)
-    take(plane(leader.group), row_lists_[follower.rows], rows);
-  if (is_taken_[follower.rows] == 0 && leading_ == 0) take(leader, follower, rows);
-  is_taken_[follower.rows] = 1;
+  Word* const rows = gathered_.data() + follower.rows * gathered_words_;
+  if (is_gathered_[follower.rows] == 0 && leading_ > 0)
+    gather(plane(leader.group), row_lists_[follower.rows], rows);
+  if (is_gathered_[follower.rows] == 0 && leading_ == 0) gather(leader, follower, rows);
+  is_gathered_[follower.rows] = 1;
   const std::int64_t before = shape_.dimensions.back().margins.before;
   const auto first = static_cast<std::size_t>(before + follower.window.first);
   const auto last = static_cast<std::size_t>(before + follower.window.last);
-  std::copy(invariant.begin(), invariant.end(), found_.begin());
-  kernels_->and_shifted(rows, first, last - first + 1, found_.data(), words_);
+  std::copy(invariant.begin(), invariant.end(), result_.begin());
+  kernels_->and_shifted(rows, first, last - first + 1, result_.data(), words_);
 }
 
 /// The AND of the bits from some places of a plane on, as far as windows along the fastest dimension reach.
-void PairProjection::take(const Plane& plane, const std::vector<Place>& list, Word* rows) const {
-  std::fill_n(rows, taken_words_, ~Word{0});
-  for (const Place& place : list) {
-    const Word* const bits = plane.rows.data() + static_cast<std::size_t>(place.row) * plane_words_;
-    kernels_->and_shifted(bits, place.lane, 1, rows, taken_words_);
+void PairProjection::gather(const Plane& plane, const std::vector<Position>& list, Word* rows) const {
+  std::fill_n(rows, gathered_words_, ~Word{0});
+  for (const Position& position : list) {
+    const Word* const bits = plane.rows.data() + static_cast<std::size_t>(position.row) * plane_words_;
+    kernels_->and_shifted(bits, position.lane, 1, rows, gathered_words_);
   }
 }
 
-/// take() from the rows of K in the box of leader and follower.
-void PairProjection::take(const Candidate& leader, const Candidate& follower, Word* rows) {
+/// gather() from the rows of K in the box of leader and follower.
+void PairProjection::gather(const Candidate& leader, const Candidate& follower, Word* rows) {
   boxes_.put(leader_, boxes_.ranges(leader_, leader.group), box_);
   boxes_.put(follower_, boxes_.ranges(follower_, follower.group), box_);
   all_.assign(plane_words_, ~Word{0});
@@ -241,14 +241,14 @@ void PairProjection::take(const Candidate& leader, const Candidate& follower, Wo
     for (std::size_t w = 0; w < plane_words_; ++w) all_[w] &= bits[w];
   });
   list_lanes(std::span<const IndexRange>(box_.windows).first(engine_.along() - 1));
-  std::fill_n(rows, taken_words_, ~Word{0});
+  std::fill_n(rows, gathered_words_, ~Word{0});
   for (const std::int64_t lane : lanes_)
-    kernels_->and_shifted(all_.data(), static_cast<std::size_t>(lane), 1, rows, taken_words_);
+    kernels_->and_shifted(all_.data(), static_cast<std::size_t>(lane), 1, rows, gathered_words_);
 }
 
 void PairProjection::add(Candidate& candidate, std::vector<Word>& masks) const {
   candidate.is_full =
-      kernels_->join(found_.data(), candidate.reach.data(), masks.data() + candidate.group * words_, words_);
+      kernels_->join(result_.data(), candidate.reach.data(), masks.data() + candidate.group * words_, words_);
 }
 
 }  // namespace coordreq

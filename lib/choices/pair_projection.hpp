@@ -57,7 +57,7 @@ class PairProjection {
   };
 
   /// A row of the unit, and a lane of it (counted from its margin on) at which to begin.
-  struct Place {
+  struct Position {
     std::int64_t row;
     std::size_t lane;
   };
@@ -68,12 +68,12 @@ class PairProjection {
   [[nodiscard]] const std::vector<Word>& continued(std::int64_t row);
   void continue_row(ConstRow row, Word* out) const;
   void list(const RowGroups& groups, std::size_t c, ConstRow invariant, std::vector<Candidate>& candidates);
-  void place_follower(Candidate& candidate);
+  void locate_follower(Candidate& candidate);
   void list_lanes(std::span<const IndexRange> windows);
-  void list_places(std::span<const IndexRange> box, std::vector<Place>& places);
+  void list_positions(std::span<const IndexRange> box, std::vector<Position>& positions);
   void erode(const Candidate& leader, const Candidate& follower, ConstRow invariant);
-  void take(const Plane& plane, const std::vector<Place>& list, Word* rows) const;
-  void take(const Candidate& leader, const Candidate& follower, Word* rows);
+  void gather(const Plane& plane, const std::vector<Position>& list, Word* rows) const;
+  void gather(const Candidate& leader, const Candidate& follower, Word* rows);
   void add(Candidate& candidate, std::vector<Word>& masks) const;
 
   const Controller& controller_;
@@ -86,8 +86,8 @@ class PairProjection {
   std::size_t leading_ = 0;  ///< dimensions that the leader moves, if these are the leading ones; else 0
   std::int64_t unit_rows_ = 1;
   std::size_t words_ = 0;
-  std::size_t plane_words_ = 0;  ///< of a row of a plane
-  std::size_t taken_words_ = 0;  ///< of the rows taken from a plane
+  std::size_t plane_words_ = 0;     ///< of a row of a plane
+  std::size_t gathered_words_ = 0;  ///< of the rows taken from a plane
   RowShape shape_;
   RowMargins margins_;          ///< in lanes
   std::vector<Beyond> beyond_;  ///< but for lanes that are never a member
@@ -102,10 +102,11 @@ class PairProjection {
   std::vector<Word> all_;
   std::vector<Candidate> leaders_, followers_;
   std::vector<std::vector<IndexRange>> row_boxes_;  ///< different boxes of the followers, without `window`
-  std::vector<std::vector<Place>> row_lists_;       ///< [box of rows] the rows and lanes that it reads
-  std::vector<Word> taken_;  ///< [box of rows * taken_words_] the AND of its rows in the plane being read
-  std::vector<std::uint8_t> is_taken_;
-  std::vector<Word> found_;
+  std::vector<std::vector<Position>> row_lists_;    ///< [box of rows] the rows and lanes that it reads
+  std::vector<Word>
+      gathered_;  ///< [box of rows * gathered_words_] the AND of its rows in the plane being read
+  std::vector<std::uint8_t> is_gathered_;
+  std::vector<Word> result_;
   std::vector<std::int64_t> lanes_;
   std::vector<std::int64_t> counter_;
 };

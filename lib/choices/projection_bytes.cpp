@@ -39,7 +39,7 @@ double projection_bytes(const EngineSizes& sizes, const std::vector<InputClass>&
       sizes.rows() * (is_joined
                           ? kBytesOfLabel * static_cast<double>(grid.row_length())
                           : kBytesOfBoxes + kBytesOfMoreBoxes * static_cast<double>(classes.size() - 2));
-  // Two classes with few actions have few parts, too.
+  // Two classes with few actions have few subsets, too.
   return classes.size() > 2 ? boxes : std::min(masks, boxes);
 }
 

@@ -190,8 +190,8 @@ class Projections::Builder {
 
   void join_masks() {
     joined_masks_.clear();
-    for (const std::vector<Word>& own : masks_)
-      joined_masks_.insert(joined_masks_.end(), own.begin(), own.end());
+    for (const std::vector<Word>& mask : masks_)
+      joined_masks_.insert(joined_masks_.end(), mask.begin(), mask.end());
   }
 
   void fill_masks(std::size_t c, ConstRow invariant) {
@@ -324,7 +324,7 @@ void Projections::find_all(const Controller& controller, ThreadTeam& team, const
     std::deque<Builder<Level>> builders;
     for (int w = 0; w < team.size(); ++w)
       builders.emplace_back(controller, *grouping_, choices, levels, rules, keeps_masks);
-    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         // Minima are shared within a unit.
@@ -354,7 +354,7 @@ std::span<const Word> Projections::Store::keep(std::span<const Word> list) {
 /// Numbers the rows of K: equal rows get the number of the first of them.
 void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share,
                                  ThreadTeam& team) {
-  const RowShare::Range run = own_rows(share, invariant.rows());
+  const RowShare::Range run = local_rows(share, invariant.rows());
   number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
   const Tiles* const tiles = equal_.tiles;
   if (tiles != nullptr) classes_ = tiles->refined(*equal.numbers, number_rows(invariant, share), &team);

@@ -168,7 +168,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
 /// The choices of states in own rows, from the first to the last.
 RowShare::Range ActionGrouping::held_choices(const ClassData& data, std::int64_t choices) const {
   const RowShare* const share = engine_->share();
-  const RowShare::Range own = own_rows(share, engine_->rows());
+  const RowShare::Range own = local_rows(share, engine_->rows());
   if (own.begin == own.end) return {0, 0};
   const std::int64_t of_leading = data.state_stride.front();
   if (share == nullptr || of_leading == 0) return {0, choices};

@@ -13,7 +13,7 @@ class DifferentRows {
  public:
   /// @pre unchecked: `levels` outlives this object and does not change.
   explicit DifferentRows(const LevelRows<Level>& levels)
-      : levels_(levels), own_(own_rows(levels.share(), levels.rows())) {
+      : levels_(levels), own_(local_rows(levels.share(), levels.rows())) {
     if (!levels.is_interned()) return;
     for (std::int64_t r = own_.begin; r < own_.end; ++r) {
       const std::size_t slot = levels.slots()[static_cast<std::size_t>(r)];

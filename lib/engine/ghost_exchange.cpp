@@ -43,7 +43,7 @@ std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, cons
                                                    std::int64_t unit_rows) {
   const std::vector<RowShare::Peer>& peers = engine.share()->peers();
   std::vector<RowShare::Range> met(peers.size());
-  const RowShare::Range own = engine.share()->own();
+  const RowShare::Range own = engine.share()->local();
   RowBox box;
   for (std::int64_t begin = own.begin; begin < own.end;) {
     const std::int64_t unit = begin / unit_rows;

@@ -54,7 +54,7 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
     : engine_(&engine), hull_(&hull), leading_(leading) {
   rows_ = leading == engine.across() ? 1 : engine.grid().row_stride(leading - 1);
   size_ = engine.rows() / rows_;
-  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  const RowShare::Range own = local_rows(engine.share(), engine.rows());
   own_ = {own.begin / rows_, own.end / rows_};
   for (std::size_t t = 0; t < engine.tables(); ++t) {
     const RowSlices& slices = engine.slices()[t];
@@ -205,7 +205,7 @@ std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, s
 
 std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, const CellSet& set,
                                  ThreadTeam* team) {
-  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  const RowShare::Range own = local_rows(engine.share(), engine.rows());
   if (!are_possible(engine) || own.end - own.begin < kFewRows) return std::nullopt;
   const Numbers content = number_rows(set, engine.share());
   std::optional<Tiles> best;

@@ -38,7 +38,7 @@ class WaveBatch {
             RowOperator<Level>& op, ThreadTeam& team, const EqualWork& equal)
       : levels_(levels),
         engine_(engine),
-        own_(own_rows(engine.share(), engine.rows())),
+        own_(local_rows(engine.share(), engine.rows())),
         limit_(limit),
         op_(op),
         team_(team),

@@ -176,7 +176,7 @@ class HeaderWriter {
       const bool is_known = std::any_of(known.begin(), known.end(), [&flag](const FieldFlag& candidate) {
         return candidate.value == flag.value;
       });
-      if (!is_known) text += fmt::format("#define $M_{} ({})\n", upper_case(flag.word), flag.value);
+      if (!is_known) text += fmt::format("#define $M_{} ({})\n", upper_case(flag.meaning), flag.value);
     }
     return text;
   }

@@ -20,7 +20,7 @@ namespace coordreq {
 using TextSink = std::function<void(std::string_view)>;
 
 /// Values on a box of cells in three dimensions, as plain data for tools that draw. Where fewer states are
-/// shown, the other dimensions have one cell and an axis without a name.
+/// displayed, the other dimensions have one cell and an axis without a name.
 struct ImageContent {
   std::string title;
   std::array<std::string, 3> axes;              ///< of x, y, z: "p1 [m]"

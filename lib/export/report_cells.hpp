@@ -18,11 +18,11 @@ struct ReportCells {
 };
 
 /// Which cells of a grid to show if there is room for `most` of them: all if they fit, else for every two
-/// dimensions a set of its own. In such a set the two have all their indices as far as there is room, and
-/// each other dimension some of its own, evenly spread with both ends (those of a periodic one are the same).
+/// dimensions a separate set. In such a set the two have all their indices as far as there is room, and
+/// each other dimension some of them, evenly spread with both ends (those of a periodic one are the same).
 ///
 /// @param pins cells that should be among them, as grid indices: each other dimension takes theirs, the first
-///   pins first, in place of the nearest ones. Example: 31 points, room for 3: 0 15 30, with a pin at 7: 7
+///   pins first, instead of the nearest ones. Example: 31 points, room for 3: 0 15 30, with a pin at 7: 7
 ///   15 30.
 /// @pre most >= 1
 [[nodiscard]] std::vector<ReportCells> choose_cells(const UniformGrid& grid, std::int64_t most,

@@ -56,7 +56,7 @@ class Tolerated {
     return all;
   }
 
-  /// The index of a rank, and the other way round.
+  /// The index of a rank, and vice versa.
   [[nodiscard]] std::int64_t rank(std::size_t state, std::int64_t index) const {
     return question_.axes[state].is_large_best ? counts_[state] - 1 - index : index;
   }

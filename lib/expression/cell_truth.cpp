@@ -89,26 +89,26 @@ Truth CellTruth::of(Comparison& comparison, std::span<const std::int64_t> indice
 
 Truth CellTruth::decide(Comparison& comparison, std::span<const std::int64_t> indices) {
   std::vector<ConditionAxis::Ranges> ranges;
-  std::vector<std::size_t> part(comparison.variables.size(), 0);
+  std::vector<std::size_t> piece(comparison.variables.size(), 0);
   for (const std::uint32_t slot : comparison.variables) ranges.push_back(axes_[slot].ranges(indices[slot]));
-  const auto truth_of_parts = [&] {
-    for (std::size_t v = 0; v < part.size(); ++v) {
-      exact_[comparison.variables[v]] = ranges[v][part[v]];
-      fast_[comparison.variables[v]] = enclose(ranges[v][part[v]]);
+  const auto truth_of_pieces = [&] {
+    for (std::size_t v = 0; v < piece.size(); ++v) {
+      exact_[comparison.variables[v]] = ranges[v][piece[v]];
+      fast_[comparison.variables[v]] = enclose(ranges[v][piece[v]]);
     }
     return comparison.decider.decide(std::span<const Interval>(fast_),
                                      [&] { return std::span<const RationalInterval>(exact_); });
   };
   const auto advance = [&] {
-    for (std::size_t v = 0; v < part.size(); ++v) {
-      if (++part[v] < ranges[v].size()) return true;
-      part[v] = 0;
+    for (std::size_t v = 0; v < piece.size(); ++v) {
+      if (++piece[v] < ranges[v].size()) return true;
+      piece[v] = 0;
     }
     return false;
   };
-  const Truth truth = truth_of_parts();
+  const Truth truth = truth_of_pieces();
   while (advance()) {
-    if (truth_of_parts() != truth) return Truth::undecided;
+    if (truth_of_pieces() != truth) return Truth::undecided;
   }
   return truth;
 }

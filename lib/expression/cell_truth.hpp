@@ -13,12 +13,12 @@ namespace coordreq {
 /// The condition says of itself that it may be undecided, where a memory does not know.
 [[nodiscard]] bool may_not_know(const Program& condition);
 
-/// The truth of a condition at a cell, comparison by comparison: each one is asked of all that its variables
-/// can be there (see ConditionDecider; where there are several ranges, of all of them), and the answers are
-/// joined by Kleene's rules. So the truth of a condition is one of its comparisons, however they were
-/// decided.
+/// The truth of a condition at a cell, comparison by comparison: each one is evaluated on all that its
+/// variables can be there (see ConditionDecider; where there are several ranges, of all of them), and the
+/// answers are joined by Kleene's rules. So the truth of a condition is one of its comparisons, however they
+/// were decided.
 ///
-/// Remembers what it has been asked. Scratch inside: one object a thread.
+/// Remembers its answers. Scratch inside: one object a thread.
 class CellTruth {
  public:
   /// @param axes by slot; needed for the variables of the condition
@@ -33,7 +33,7 @@ class CellTruth {
     Program program;
     ConditionDecider decider;
     std::vector<std::uint32_t> variables;
-    std::vector<std::uint8_t> known;  ///< by row-major number over the variables: 1 + truth, 0 if not asked
+    std::vector<std::uint8_t> known;  ///< by row-major number over the variables: 1 + truth, 0 if not known
   };
   struct Node {
     Operator op;

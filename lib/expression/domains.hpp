@@ -7,7 +7,7 @@
 #include "numeric/rational_interval.hpp"
 #include "numeric/truth.hpp"
 
-// The operations that Evaluator<T> asks for, for the three number types that ship.
+// The operations that Evaluator<T> needs, for the three number types that ship.
 namespace coordreq {
 
 /// Plain double arithmetic, for simulation and pictures; no guarantee. NaN where undefined, also for a
@@ -25,7 +25,7 @@ namespace coordreq {
 /// Outward-rounded double intervals.
 [[nodiscard]] Interval from_rational(const Interval* tag, const Rational& q);
 [[nodiscard]] inline Interval apply(Operator op, const Interval& a) {
-  return number_function(op).over_interval(a, a);
+  return number_function(op).on_interval(a, a);
 }
 [[nodiscard]] Interval apply(Operator op, const Interval& a, const Interval& b);
 [[nodiscard]] Truth compare(Operator op, const Interval& a, const Interval& b);
@@ -34,11 +34,11 @@ namespace coordreq {
 /// Exact rational intervals; irrational functions are enclosed outward.
 [[nodiscard]] RationalInterval from_rational(const RationalInterval* tag, const Rational& q);
 [[nodiscard]] inline RationalInterval apply(Operator op, const RationalInterval& a) {
-  return number_function(op).over_rationals(a, a);
+  return number_function(op).on_rationals(a, a);
 }
 [[nodiscard]] inline RationalInterval apply(Operator op, const RationalInterval& a,
                                             const RationalInterval& b) {
-  return number_function(op).over_rationals(a, b);
+  return number_function(op).on_rationals(a, b);
 }
 [[nodiscard]] Truth compare(Operator op, const RationalInterval& a, const RationalInterval& b);
 [[nodiscard]] RationalInterval select(Truth condition, const RationalInterval& a, const RationalInterval& b);
@@ -86,7 +86,7 @@ inline Interval apply(Operator op, const Interval& a, const Interval& b) {
     case Operator::power:
       return b.lower == 2.0 && b.upper == 2.0 && b.total ? sqr(a) : pow(a, b);
     default:
-      return number_function(op).over_interval(a, b);
+      return number_function(op).on_interval(a, b);
   }
 }
 

@@ -123,13 +123,13 @@ Dual from_rational(const Dual* /*tag*/, const Rational& q) {
 
 Dual apply(Operator op, const Dual& a) {
   const NumberFunction& function = number_function(op);
-  if (!is_constant(a)) return function.over_dual(a, a);
-  const Interval value = function.over_interval(a.value, a.value);
+  if (!is_constant(a)) return function.on_dual(a, a);
+  const Interval value = function.on_interval(a.value, a.value);
   return Dual::constant({value.lower, value.upper, value.total && a.total});
 }
 
 Dual apply(Operator op, const Dual& a, const Dual& b) {
-  return number_function(op).over_dual(a, b);
+  return number_function(op).on_dual(a, b);
 }
 
 Truth compare(Operator op, const Dual& a, const Dual& b) {

@@ -42,7 +42,7 @@ T times(const T& a, const T& b) {
   return a * b;
 }
 template <class T>
-T over(const T& a, const T& b) {
+T quotient(const T& a, const T& b) {
   return a / b;
 }
 template <class T>
@@ -121,10 +121,10 @@ std::optional<Rational> floor_of(const Rational& a, const Rational& /*b*/) {
 std::optional<Rational> no_angle(const Rational& y, const Rational& x) {
   return sgn(y) == 0 && sgn(x) > 0 ? std::optional<Rational>(0) : std::nullopt;
 }
-/// The function is `value` at `place`, and irrational at all other rationals.
-template <int place, int value>
+/// The function is `value` at `point`, and irrational at all other rationals.
+template <int point, int value>
 std::optional<Rational> rational_only_at(const Rational& a, const Rational& /*b*/) {
-  return a == place ? std::optional<Rational>(value) : std::nullopt;
+  return a == point ? std::optional<Rational>(value) : std::nullopt;
 }
 std::optional<Rational> exact_quotient(const Rational& a, const Rational& b) {
   return sgn(b) == 0 ? std::nullopt : within_limit(a / b);
@@ -177,7 +177,7 @@ Index minus_sine(NodeWriter& nodes, Index a, Index /*r*/) {
 }
 /// 1 + r^2 or 1 - r^2.
 template <Operator plus_or_minus>
-Index one_and_own_square(NodeWriter& nodes, Index /*a*/, Index r) {
+Index one_and_square(NodeWriter& nodes, Index /*a*/, Index r) {
   const Index one = nodes.put_number(1);
   return nodes.put_operation(plus_or_minus, one, nodes.put_operation(Operator::multiply, r, r));
 }
@@ -224,7 +224,7 @@ constexpr std::array kFunctions{
         exactly<times<Rational>>, none<Outcome::too_large>,
         {SeriesRule::product, nullptr}, kNowhere, kNever},
     NumberFunction{Operator::divide, "/", "", 2, 2,
-        divide_doubles, over<Interval>, over<RationalInterval>, over<Dual>,
+        divide_doubles, quotient<Interval>, quotient<RationalInterval>, quotient<Dual>,
         exact_quotient, quotient_constant,
         {SeriesRule::quotient, nullptr}, "division by {1}", kNever},
     NumberFunction{Operator::power, "^", "pow", 2, 2,
@@ -258,7 +258,7 @@ constexpr std::array kFunctions{
     NumberFunction{Operator::tangent, "tan", "tan", 1, 1,
         at<std::tan>, of<Interval, tan>, outward<tan>, of<Dual, tan>,
         rational_only_at<0, 0>, to_double<ElementaryFunction::tangent>,
-        {SeriesRule::chain, one_and_own_square<Operator::add>}, "tan of {0}", 1},
+        {SeriesRule::chain, one_and_square<Operator::add>}, "tan of {0}", 1},
     NumberFunction{Operator::arcsine, "asin", "asin", 1, 1,
         at<std::asin>, of<Interval, asin>, outward<asin>, of<Dual, asin>,
         rational_only_at<0, 0>, to_double<ElementaryFunction::arcsine>,
@@ -282,7 +282,7 @@ constexpr std::array kFunctions{
     NumberFunction{Operator::hyperbolic_tangent, "tanh", "tanh", 1, 1,
         at<std::tanh>, of<Interval, tanh>, outward<tanh>, of<Dual, tanh>,
         rational_only_at<0, 0>, to_double<ElementaryFunction::hyperbolic_tangent>,
-        {SeriesRule::chain, one_and_own_square<Operator::subtract>}, kNowhere, kNever},
+        {SeriesRule::chain, one_and_square<Operator::subtract>}, kNowhere, kNever},
     NumberFunction{Operator::exponential, "exp", "exp", 1, 1,
         at<std::exp>, of<Interval, exp>, outward<exp>, of<Dual, exp>,
         rational_only_at<0, 1>, to_double<ElementaryFunction::exponential>,
@@ -310,7 +310,7 @@ constexpr std::array kFunctions{
 };
 // clang-format on
 
-constexpr std::size_t place_of(Operator op) {
+constexpr std::size_t index_of(Operator op) {
   return static_cast<std::size_t>(op) - static_cast<std::size_t>(Operator::add);
 }
 
@@ -318,16 +318,16 @@ constexpr std::size_t place_of(Operator op) {
 [[maybe_unused]] constexpr bool is_complete(const NumberFunction& f) {
   const bool has_factor = f.series.rule == SeriesRule::chain || f.series.rule == SeriesRule::inverse_chain;
   return !f.spelling.empty() && f.fewest > 0 && f.most >= f.fewest && f.at_point != nullptr &&
-         f.over_interval != nullptr && f.over_rationals != nullptr && f.over_dual != nullptr &&
+         f.on_interval != nullptr && f.on_rationals != nullptr && f.on_dual != nullptr &&
          f.exactly != nullptr && f.rounded != nullptr && f.series.rule != SeriesRule::fixed &&
          (f.series.factor != nullptr) == has_factor && f.undefined != nullptr && f.half_turns != 0;
 }
 
 constexpr bool is_in_order() {
   for (std::size_t i = 0; i < kFunctions.size(); ++i) {
-    if (place_of(kFunctions[i].op) != i) return false;
+    if (index_of(kFunctions[i].op) != i) return false;
   }
-  return kFunctions.size() == place_of(Operator::floor) + 1;
+  return kFunctions.size() == index_of(Operator::floor) + 1;
 }
 static_assert(is_in_order());
 // With its sanitisers g++ 12 takes no address of a function for a constant.
@@ -343,7 +343,7 @@ std::span<const NumberFunction> number_functions() {
 
 const NumberFunction& number_function(Operator op) {
   REQUIRES(is_number_function(op));
-  return kFunctions[place_of(op)];
+  return kFunctions[index_of(op)];
 }
 
 }  // namespace coordreq

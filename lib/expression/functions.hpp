@@ -78,10 +78,10 @@ struct NumberFunction {
   std::size_t fewest;         ///< arguments of a call; of several, the operation goes from left to right
   std::size_t most;
 
-  Of<double> at_point;                  ///< no guarantee; NaN where undefined
-  Of<Interval> over_interval;           ///< encloses the range
-  Of<RationalInterval> over_rationals;  ///< the same, exact where the operation is rational
-  Of<Dual> over_dual;                   ///< range and derivative
+  Of<double> at_point;                ///< no guarantee; NaN where undefined
+  Of<Interval> on_interval;           ///< encloses the range
+  Of<RationalInterval> on_rationals;  ///< the same, exact where the operation is rational
+  Of<Dual> on_dual;                   ///< range and derivative
   /// The value where it is defined, rational, and seen to be so: rational operations within the limits of
   /// numeric/rational_functions.hpp, roots that come out even, and values such as exp(0) = 1. Else nothing.
   std::optional<Rational> (*exactly)(const Rational& a, const Rational& b);

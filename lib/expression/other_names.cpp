@@ -12,7 +12,7 @@ namespace {
 
 struct OtherName {
   std::string_view other;  ///< in small letters
-  std::string_view own;
+  std::string_view name;
 };
 
 constexpr std::array kOtherFunctions = {
@@ -77,31 +77,31 @@ std::string in_small_letters(std::string_view name) {
 }
 
 template <class Names>
-std::string meant(const Names& names, std::string_view name) {
+std::string suggestion(const Names& names, std::string_view name) {
   const auto found =
       std::find_if(names.begin(), names.end(), [&](const OtherName& each) { return each.other == name; });
-  return found == names.end() ? std::string() : fmt::format(", did you mean '{}'?", found->own);
+  return found == names.end() ? std::string() : fmt::format(", did you mean '{}'?", found->name);
 }
 
 }  // namespace
 
-std::string meant_function(std::string_view name) {
+std::string suggested_function(std::string_view name) {
   const std::string small = in_small_letters(name);
   const auto functions = number_functions();
-  const bool is_own = small == spelling(Operator::if_else) || small == spelling(Operator::modulo) ||
-                      std::any_of(functions.begin(), functions.end(), [&](const NumberFunction& function) {
-                        return !function.call.empty() && function.call == small;
-                      });
-  if (is_own && small != name) return fmt::format(", did you mean '{}'?", small);
-  return meant(kOtherFunctions, small);
+  const bool is_known = small == spelling(Operator::if_else) || small == spelling(Operator::modulo) ||
+                        std::any_of(functions.begin(), functions.end(), [&](const NumberFunction& function) {
+                          return !function.call.empty() && function.call == small;
+                        });
+  if (is_known && small != name) return fmt::format(", did you mean '{}'?", small);
+  return suggestion(kOtherFunctions, small);
 }
 
-std::string meant_sign(std::string_view sign) {
-  return meant(kOtherSigns, sign);
+std::string suggested_sign(std::string_view sign) {
+  return suggestion(kOtherSigns, sign);
 }
 
-std::string meant_constant(std::string_view name) {
-  return meant(kOtherConstants, in_small_letters(name));
+std::string suggested_constant(std::string_view name) {
+  return suggestion(kOtherConstants, in_small_letters(name));
 }
 
 }  // namespace coordreq

@@ -42,8 +42,8 @@ class Lattice {
 
  private:
   static void insert(std::vector<std::size_t>& lines, std::size_t line) {
-    const auto place = std::lower_bound(lines.begin(), lines.end(), line);
-    if (place == lines.end() || *place != line) lines.insert(place, line);
+    const auto position = std::lower_bound(lines.begin(), lines.end(), line);
+    if (position == lines.end() || *position != line) lines.insert(position, line);
   }
 
   /// Where a line is nowhere above the function.

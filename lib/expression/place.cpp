@@ -29,7 +29,7 @@ unsigned lead_size(unsigned char lead) {
 
 }  // namespace
 
-std::string Place::at(std::size_t offset) const {
+std::string SourceText::at(std::size_t offset) const {
   const std::string_view before = text.substr(0, offset);
   const auto lines = std::count(before.begin(), before.end(), '\n');
   const std::size_t line_end = before.rfind('\n');
@@ -40,7 +40,7 @@ std::string Place::at(std::size_t offset) const {
   return fmt::format("{}{}line {}, column {}", where, comma, lines + 1, column);
 }
 
-void Place::fail(std::string_view what, std::size_t offset) const {
+void SourceText::fail(std::string_view what, std::size_t offset) const {
   throw SpecError(what, at(offset));
 }
 
@@ -63,7 +63,7 @@ std::size_t code_point_size(std::string_view text) {
   return std::all_of(rest.begin(), rest.end(), is_continuation) ? size : 1;
 }
 
-std::string shown_character(std::string_view text) {
+std::string character_text(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
   const std::size_t size = code_point_size(text);
   if (size == 1 && lead >= 0x80U) return fmt::format("byte 0x{:02X}", lead);

@@ -7,7 +7,7 @@
 namespace coordreq {
 
 /// Where an error in an expression is: turns byte offsets into what a user can find in an editor.
-struct Place {
+struct SourceText {
   std::string_view text;   ///< the expression
   std::string_view where;  ///< its JSON pointer
 
@@ -26,7 +26,7 @@ struct Place {
 /// The character at the start of `text` as a message may show it: printable ASCII in quotes, anything else by
 /// its code point ("U+00E9") or, in broken UTF-8, by its byte; a terminal never gets to see control
 /// characters.
-[[nodiscard]] std::string shown_character(std::string_view text);
+[[nodiscard]] std::string character_text(std::string_view text);
 
 /// Bytes of the code point at the start of `text`, 1 for broken UTF-8. @pre text is not empty
 [[nodiscard]] std::size_t code_point_size(std::string_view text);

@@ -27,8 +27,8 @@ const TableFunction* no_table(std::string_view /*name*/) {
 /// Gives names and types to a syntax tree: walks its postfix order with a stack of operands.
 class Linker {
  public:
-  Linker(const Place& place, const Lookup& lookup, const TableLookup& tables)
-      : place_(place), lookup_(lookup), tables_(tables) {}
+  Linker(const SourceText& source, const Lookup& lookup, const TableLookup& tables)
+      : source_(source), lookup_(lookup), tables_(tables) {}
 
   Program run(const SyntaxTree& tree, ExpectedType expected) {
     for (const SyntaxTree::Node& node : tree.nodes) stack_.push_back(value_of(tree, node));
@@ -36,7 +36,7 @@ class Linker {
     if (expected == ExpectedType::number) require_number(result);
     if (expected == ExpectedType::condition) require_condition(result);
     Program program = tape_.extract(result.node);
-    program.text = place_.text;
+    program.text = source_.text;
     return program;
   }
 
@@ -129,20 +129,20 @@ class Linker {
     if (const auto* const definition = std::get_if<std::shared_ptr<const Program>>(&binding)) {
       return {tape_.merge(**definition), (*definition)->is_condition(), offset};
     }
-    // A constant of other languages is rather meant than a name that is spelt alike.
-    const std::string meant = meant_constant(name);
-    const std::string& hint = meant.empty() ? std::get<NotDefined>(binding).hint : meant;
-    place_.fail(fmt::format("{} is not defined{}", in_quotes(name), hint), offset);
+    // A constant of other languages is rather intended than a name that is spelt alike.
+    const std::string suggestion = suggested_constant(name);
+    const std::string& hint = suggestion.empty() ? std::get<NotDefined>(binding).hint : suggestion;
+    source_.fail(fmt::format("{} is not defined{}", in_quotes(name), hint), offset);
   }
 
   void require_number(const Value& value) const {
-    if (value.is_condition) place_.fail("expected a number, found a condition", value.offset);
+    if (value.is_condition) source_.fail("expected a number, found a condition", value.offset);
   }
   void require_condition(const Value& value) const {
-    if (!value.is_condition) place_.fail("expected a condition, found a number", value.offset);
+    if (!value.is_condition) source_.fail("expected a condition, found a number", value.offset);
   }
 
-  const Place& place_;
+  const SourceText& source_;
   const Lookup& lookup_;
   const TableLookup& tables_;
   TapeBuilder tape_;
@@ -163,8 +163,8 @@ std::vector<std::uint32_t> Program::variables() const {
 
 Program link(std::string_view text, const Lookup& lookup, const TableLookup& tables, ExpectedType expected,
              std::string_view where) {
-  const Place place{text, where};
-  return Linker(place, lookup, tables).run(parse(place, tables), expected);
+  const SourceText source{text, where};
+  return Linker(source, lookup, tables).run(parse(source, tables), expected);
 }
 
 Program link(std::string_view text, const Lookup& lookup, ExpectedType expected, std::string_view where) {
@@ -173,7 +173,7 @@ Program link(std::string_view text, const Lookup& lookup, ExpectedType expected,
 
 std::vector<std::string> mentioned_names(std::string_view text, const TableLookup& tables,
                                          std::string_view where) {
-  const SyntaxTree tree = parse(Place{text, where}, tables);
+  const SyntaxTree tree = parse(SourceText{text, where}, tables);
   std::vector<std::string> names;
   std::unordered_set<std::string_view> seen;
   for (const SyntaxTree::Node& node : tree.nodes) {

@@ -24,8 +24,8 @@ Truth SharpCondition::decide(std::span<const RationalInterval> box) {
   boxes_left_ = kMostBoxes;
   may_be_yes_ = true;
   may_be_no_ = question_ == Question::truth;
-  Box part = whole_;
-  return visit(part, std::vector<Truth>(comparisons_.size(), Truth::undecided), 0);
+  Box subbox = whole_;
+  return visit(subbox, std::vector<Truth>(comparisons_.size(), Truth::undecided), 0);
 }
 
 Truth SharpCondition::visit(Box& box, std::vector<Truth> truths, int cuts) {

@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// The question that is asked about a condition over a box.
+/// The question about a condition over a box.
 enum class Question : std::uint8_t {
   truth,       ///< `yes` and `no` are both worth work
   everywhere,  ///< only whether it holds at every point: `no` and `undecided` are the same answer

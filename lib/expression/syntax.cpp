@@ -46,8 +46,8 @@ int binary_precedence(const Token& token) {
 /// Functions with temporaries are out of line: inlined, those would be part of every frame of expression().
 class Parser {
  public:
-  Parser(const Place& place, const TableLookup& tables)
-      : place_(place), tables_(tables), token_(read_token(place.text, 0)) {}
+  Parser(const SourceText& source, const TableLookup& tables)
+      : source_(source), tables_(tables), token_(read_token(source.text, 0)) {}
 
   SyntaxTree run() {
     expression(kOr);
@@ -151,22 +151,22 @@ class Parser {
   }
 
   [[gnu::noinline]] void name() {
-    const Token word = token_;
+    const Token name = token_;
     advance();
-    if (word.text == "true") return emit(Operator::literal_true, 0, word.offset);
-    if (word.text == "false") return emit(Operator::literal_false, 0, word.offset);
-    const std::optional<Function> function = find_function(word.text);
+    if (name.text == "true") return emit(Operator::literal_true, 0, name.offset);
+    if (name.text == "false") return emit(Operator::literal_false, 0, name.offset);
+    const std::optional<Function> function = find_function(name.text);
     if (function) {
       const std::size_t arguments = arguments_of_call();
       if (arguments < function->fewest || arguments > function->most)
-        fail_count(*function, arguments, word.offset);
-      return emit(function->op, arguments, word.offset);
+        fail_count(*function, arguments, name.offset);
+      return emit(function->op, arguments, name.offset);
     }
-    if (const TableFunction* const table = tables_.find(word.text); table != nullptr)
-      return call_table(word, *table);
-    if (token_.kind == TokenKind::open) fail_function(word);
-    emit(Operator::variable, 0, word.offset, tree_.names.size());
-    tree_.names.push_back(word.text);
+    if (const TableFunction* const table = tables_.find(name.text); table != nullptr)
+      return call_table(name, *table);
+    if (token_.kind == TokenKind::open) fail_function(name);
+    emit(Operator::variable, 0, name.offset, tree_.names.size());
+    tree_.names.push_back(name.text);
   }
 
   void parenthesis() {
@@ -179,12 +179,12 @@ class Parser {
     tree_.nodes.back().offset = start;
   }
 
-  [[gnu::noinline]] void call_table(const Token& word, const TableFunction& table) {
+  [[gnu::noinline]] void call_table(const Token& name, const TableFunction& table) {
     const std::size_t arguments = arguments_of_call();
     if (arguments != table.arguments)
-      fail_count({word.text, Operator::variable, table.arguments, table.arguments}, arguments, word.offset);
-    emit(Operator::variable, arguments, word.offset, tree_.names.size());
-    tree_.names.push_back(word.text);
+      fail_count({name.text, Operator::variable, table.arguments, table.arguments}, arguments, name.offset);
+    emit(Operator::variable, arguments, name.offset, tree_.names.size());
+    tree_.names.push_back(name.text);
   }
 
   /// The arguments in parentheses. @returns how many there are
@@ -204,7 +204,7 @@ class Parser {
     return arguments;
   }
 
-  [[gnu::noinline]] void advance() { token_ = read_token(place_.text, token_.offset + token_.text.size()); }
+  [[gnu::noinline]] void advance() { token_ = read_token(source_.text, token_.offset + token_.text.size()); }
 
   [[gnu::noinline]] void emit(Operator op, std::size_t operands, std::size_t start, std::size_t item = 0) {
     tree_.nodes.push_back(
@@ -212,20 +212,21 @@ class Parser {
   }
 
   [[noreturn, gnu::noinline]] void fail_depth() const {
-    place_.fail(fmt::format("the expression is nested deeper than {} levels", kDeepest), token_.offset);
+    source_.fail(fmt::format("the expression is nested deeper than {} levels", kDeepest), token_.offset);
   }
 
   [[noreturn, gnu::noinline]] void fail_operand() const {
-    place_.fail(fmt::format("expected a number, a name or '(', found {}{}", shown(token_), operand_hint()),
-                token_.offset);
+    source_.fail(
+        fmt::format("expected a number, a name or '(', found {}{}", token_text(token_), operand_hint()),
+        token_.offset);
   }
 
   /// For those who write |v| as in mathematics.
   [[nodiscard]] std::string operand_hint() const {
     if (token_.text != "|" && token_.text != "||") return hint();
     const std::size_t start = token_.offset + 1;
-    const std::size_t end = place_.text.find('|', start);
-    const std::string_view inside = place_.text.substr(start, std::min(end, place_.text.size()) - start);
+    const std::size_t end = source_.text.find('|', start);
+    const std::string_view inside = source_.text.substr(start, std::min(end, source_.text.size()) - start);
     const bool is_plain =
         end != std::string_view::npos && !inside.empty() &&
         std::all_of(inside.begin(), inside.end(), [](char c) { return c >= ' ' && c <= '~'; });
@@ -234,61 +235,61 @@ class Parser {
   }
 
   [[noreturn, gnu::noinline]] void fail_expected(std::string_view expected) const {
-    place_.fail(fmt::format("expected {}, found {}{}", expected, shown(token_), hint()), token_.offset);
+    source_.fail(fmt::format("expected {}, found {}{}", expected, token_text(token_), hint()), token_.offset);
   }
 
   /// For those who write another language.
   [[nodiscard]] std::string hint() const {
     if (token_.kind == TokenKind::unknown && (static_cast<unsigned char>(token_.text.front()) & 0x80U) != 0)
-      return meant_sign(token_.text);
+      return suggested_sign(token_.text);
     if (token_.text == "=") return std::string(equals_hint());
     if (token_.text == "&") return ", did you mean '&&'?";
     if (token_.text == "|") return ", did you mean '||'?";
     if (token_.text == "%") return ", did you mean 'mod(a, b)'?";
     const bool is_second_star =
-        token_.text == "*" && token_.offset > 0 && place_.text[token_.offset - 1] == '*';
+        token_.text == "*" && token_.offset > 0 && source_.text[token_.offset - 1] == '*';
     return is_second_star ? ", did you mean '^'?" : "";
   }
 
   /// The hint for a '=' by itself, as in "x => 1".
   [[nodiscard]] std::string_view equals_hint() const {
-    const std::string_view rest = place_.text.substr(token_.offset + 1);
+    const std::string_view rest = source_.text.substr(token_.offset + 1);
     if (rest.starts_with('>')) return ", did you mean '>='?";
     return rest.starts_with('<') ? ", did you mean '<='?" : ", did you mean '=='?";
   }
 
   [[noreturn, gnu::noinline]] void fail_number() const {
-    place_.fail(fmt::format("the number {} is out of range", in_quotes(token_.text)), token_.offset);
+    source_.fail(fmt::format("the number {} is out of range", in_quotes(token_.text)), token_.offset);
   }
 
-  [[noreturn, gnu::noinline]] void fail_function(const Token& word) const {
-    if (past_operator_arguments(word.text) > 0) {
-      place_.fail(fmt::format("{} looks at the past, expected it in a formula of 'memory' only",
-                              in_quotes(word.text)),
-                  word.offset);
+  [[noreturn, gnu::noinline]] void fail_function(const Token& name) const {
+    if (past_operator_arguments(name.text) > 0) {
+      source_.fail(fmt::format("{} looks at the past, expected it in a formula of 'memory' only",
+                               in_quotes(name.text)),
+                   name.offset);
     }
-    std::string meant = meant_function(word.text);
-    if (meant.empty()) meant = tables_.hint(word.text);
-    if (!meant.empty())
-      place_.fail(fmt::format("{} is not a function{}", in_quotes(word.text), meant), word.offset);
+    std::string suggestion = suggested_function(name.text);
+    if (suggestion.empty()) suggestion = tables_.hint(name.text);
+    if (!suggestion.empty())
+      source_.fail(fmt::format("{} is not a function{}", in_quotes(name.text), suggestion), name.offset);
     std::string known = fmt::format("{}, {}", spelling(Operator::if_else), spelling(Operator::modulo));
     for (const NumberFunction& function : number_functions()) {
       if (!function.call.empty()) known += fmt::format(", {}", function.call);
     }
-    place_.fail(fmt::format("{} is not a function, expected one of {}", in_quotes(word.text), known),
-                word.offset);
+    source_.fail(fmt::format("{} is not a function, expected one of {}", in_quotes(name.text), known),
+                 name.offset);
   }
 
   [[noreturn, gnu::noinline]] void fail_count(const Function& function, std::size_t found,
                                               std::size_t start) const {
     const std::string_view more = function.most > function.fewest ? " or more" : "";
     const std::string_view plural = function.most == 1 ? "" : "s";
-    place_.fail(fmt::format("{} takes {}{} argument{}, found {}", function.name, function.fewest, more,
-                            plural, found),
-                start);
+    source_.fail(fmt::format("{} takes {}{} argument{}, found {}", function.name, function.fewest, more,
+                             plural, found),
+                 start);
   }
 
-  const Place& place_;
+  const SourceText& source_;
   const TableLookup& tables_;
   Token token_;
   SyntaxTree tree_;
@@ -297,8 +298,8 @@ class Parser {
 
 }  // namespace
 
-SyntaxTree parse(const Place& place, const TableLookup& tables) {
-  return Parser(place, tables).run();
+SyntaxTree parse(const SourceText& source, const TableLookup& tables) {
+  return Parser(source, tables).run();
 }
 
 }  // namespace coordreq

@@ -30,6 +30,6 @@ struct SyntaxTree {
 };
 
 /// @throws SpecError if the text is no expression of the grammar with these tables
-[[nodiscard]] SyntaxTree parse(const Place& place, const TableLookup& tables);
+[[nodiscard]] SyntaxTree parse(const SourceText& source, const TableLookup& tables);
 
 }  // namespace coordreq

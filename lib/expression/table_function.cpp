@@ -27,8 +27,8 @@ bool rises_or_falls(const PiecewiseLinear& f, std::size_t first, std::size_t las
 /// The function between two of its ends, with the values there before and after.
 PiecewiseLinear flat_beyond(const PiecewiseLinear& f, std::size_t first, std::size_t last) {
   std::vector<Rational> x, value;
-  const auto add = [&](const Rational& place, std::size_t end) {
-    x.push_back(place);
+  const auto add = [&](const Rational& point, std::size_t end) {
+    x.push_back(point);
     value.push_back(f.at_end(end));
   };
   if (first > 0) add(f.ends.front(), first);
@@ -62,7 +62,7 @@ class TableWriter {
       const Index distance = tape_.apply(Operator::absolute, plus(x, -f.ends[1]));
       return plus(times(f.lines[1].slope, distance), f.at_end(1));
     }
-    return part(f, 0, f.lines.size(), x);
+    return segment(f, 0, f.lines.size(), x);
   }
 
   Index plus(Index x, const Rational& number) {
@@ -92,7 +92,7 @@ class TableWriter {
   /// The function between two of its ends, and beyond these as there. Where it is greatest within, it is the
   /// minimum of its two sides, and where it is least within, their maximum: ranges of both sides then give
   /// the range of the whole.
-  Index part(const PiecewiseLinear& f, std::size_t first, std::size_t last, Index x) {
+  Index segment(const PiecewiseLinear& f, std::size_t first, std::size_t last, Index x) {
     if (!rises_or_falls(f, first, last)) {
       const auto value = [&](std::size_t i) { return f.at_end(i); };
       const auto ends = std::views::iota(first, last + 1);
@@ -101,14 +101,14 @@ class TableWriter {
       for (const auto& [level, op] :
            {std::pair{most, Operator::minimum}, std::pair{least, Operator::maximum}}) {
         for (std::size_t i = first + 1; i < last; ++i) {
-          if (value(i) == level) return tape_.apply(op, part(f, first, i, x), part(f, i, last, x));
+          if (value(i) == level) return tape_.apply(op, segment(f, first, i, x), segment(f, i, last, x));
         }
       }
     }
-    const PiecewiseLinear own = flat_beyond(f, first, last);
+    const PiecewiseLinear extended = flat_beyond(f, first, last);
     std::optional<Index> greatest;
-    for (const LeastLine& minimum : as_maximum_of_minima(own))
-      greatest = joined(Operator::maximum, greatest, least(own, minimum, x));
+    for (const LeastLine& minimum : as_maximum_of_minima(extended))
+      greatest = joined(Operator::maximum, greatest, least(extended, minimum, x));
     return *greatest;
   }
 

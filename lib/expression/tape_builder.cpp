@@ -78,19 +78,19 @@ Program TapeBuilder::extract(Index result) const {
     if (operands > 2) needed[node.c] = true;
   }
   Program program;
-  std::vector<Index> there(needed.size(), 0);
+  std::vector<Index> new_index(needed.size(), 0);
   for (std::size_t i = 0; i < needed.size(); ++i) {
     if (!needed[i]) continue;
     Program::Node node = nodes_[i];
     const std::size_t operands = operand_count(node.op);
-    if (operands > 0) node.a = there[node.a];
-    if (operands > 1) node.b = there[node.b];
-    if (operands > 2) node.c = there[node.c];
+    if (operands > 0) node.a = new_index[node.a];
+    if (operands > 1) node.b = new_index[node.b];
+    if (operands > 2) node.c = new_index[node.c];
     if (node.op == Operator::constant) {
       program.constants.push_back(constants_[node.a]);
       node.a = static_cast<Index>(program.constants.size() - 1);
     }
-    there[i] = static_cast<Index>(program.nodes.size());
+    new_index[i] = static_cast<Index>(program.nodes.size());
     program.nodes.push_back(node);
   }
   return program;

@@ -35,7 +35,7 @@ bool is_digit(char c) {
 bool is_name_start(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
-bool is_name_part(char c) {
+bool is_name_character(char c) {
   return is_name_start(c) || is_digit(c);
 }
 bool is_space(char c) {
@@ -65,11 +65,11 @@ std::size_t number_length(std::string_view text) {
   return exponent_digits == 0 ? length : exponent + exponent_digits;
 }
 
-Token word_token(std::string_view word, std::size_t offset) {
-  if (word == "and") return {TokenKind::op, Operator::logical_and, offset, word};
-  if (word == "or") return {TokenKind::op, Operator::logical_or, offset, word};
-  if (word == "not") return {TokenKind::op, Operator::logical_not, offset, word};
-  return {TokenKind::name, Operator::variable, offset, word};
+Token name_token(std::string_view name, std::size_t offset) {
+  if (name == "and") return {TokenKind::op, Operator::logical_and, offset, name};
+  if (name == "or") return {TokenKind::op, Operator::logical_or, offset, name};
+  if (name == "not") return {TokenKind::op, Operator::logical_not, offset, name};
+  return {TokenKind::name, Operator::variable, offset, name};
 }
 
 Token symbol_token(std::string_view rest, std::size_t offset) {
@@ -99,13 +99,14 @@ Token read_token(std::string_view text, std::size_t offset) {
   if (const std::size_t length = number_length(rest); length > 0) {
     return {TokenKind::number, Operator::constant, offset, rest.substr(0, length)};
   }
-  if (is_name_start(rest.front())) return word_token(rest.substr(0, run_length(rest, is_name_part)), offset);
+  if (is_name_start(rest.front()))
+    return name_token(rest.substr(0, run_length(rest, is_name_character)), offset);
   return symbol_token(rest, offset);
 }
 
-std::string shown(const Token& token) {
+std::string token_text(const Token& token) {
   if (token.kind == TokenKind::end) return "the end";
-  if (token.kind == TokenKind::unknown) return shown_character(token.text);
+  if (token.kind == TokenKind::unknown) return character_text(token.text);
   return in_quotes(token.text);
 }
 

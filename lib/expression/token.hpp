@@ -32,7 +32,7 @@ struct Token {
 [[nodiscard]] Token read_token(std::string_view text, std::size_t offset);
 
 /// The token as a message names what was found: "'x1'", "the end", "U+00E9".
-[[nodiscard]] std::string shown(const Token& token);
+[[nodiscard]] std::string token_text(const Token& token);
 
 /// A function of the grammar, and how many arguments a call has.
 struct Function {

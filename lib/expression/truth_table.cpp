@@ -37,16 +37,16 @@ using FastRanges = std::vector<Interval>;
 
 FastRanges enclosed(const ConditionAxis::Ranges& exact) {
   FastRanges result;
-  for (const RationalInterval& part : exact) result.push_back(enclose(part));
+  for (const RationalInterval& range : exact) result.push_back(enclose(range));
   return result;
 }
 
-/// The ranges of all indices of an axis in doubles; nothing if they are not asked for often enough to keep
+/// The ranges of all indices of an axis in doubles; nothing if they are not needed often enough to keep
 /// them.
-std::vector<FastRanges> kept_ranges(const ConditionAxis& axis, std::int64_t times_asked) {
+std::vector<FastRanges> kept_ranges(const ConditionAxis& axis, std::int64_t queries) {
   constexpr std::int64_t kOften = 16;
   std::vector<FastRanges> result;
-  if (times_asked < kOften) return result;
+  if (queries < kOften) return result;
   for (std::int64_t k = 0; k < axis.count; ++k) result.push_back(enclosed(axis.ranges(k)));
   return result;
 }
@@ -109,7 +109,7 @@ class TruthTable::Filler {
         undecided_(undecided),
         variables_(condition.variables()),
         indices_(axes.size(), 0),
-        parts_(axes.size(), 0),
+        pieces_(axes.size(), 0),
         made_(axes.size()),
         ranges_(axes.size()),
         fast_(axes.size()),
@@ -130,49 +130,49 @@ class TruthTable::Filler {
     } else {
       ranges_[slot] = kept_[slot][static_cast<std::size_t>(index)];
     }
-    set_part(slot, 0);
+    set_piece(slot, 0);
   }
 
   [[nodiscard]] bool holds() {
     for (const auto& [follower, slot] : followers_) indices_[follower] = indices_[slot];
-    const Truth truth = cell_truth_ ? cell_truth_->at(indices_) : on_all_parts();
+    const Truth truth = cell_truth_ ? cell_truth_->at(indices_) : on_all_pieces();
     return truth == Truth::undecided ? undecided_(indices_) : truth == Truth::yes;
   }
 
  private:
-  void set_part(std::size_t slot, std::size_t part) {
-    parts_[slot] = part;
-    fast_[slot] = ranges_[slot][part];
+  void set_piece(std::size_t slot, std::size_t range) {
+    pieces_[slot] = range;
+    fast_[slot] = ranges_[slot][range];
   }
 
-  Truth on_all_parts() {
-    Truth truth = on_these_parts();
-    while (next_parts()) {
+  Truth on_all_pieces() {
+    Truth truth = on_these_pieces();
+    while (next_pieces()) {
       // After a difference only the parts are left to go round.
-      if (truth != Truth::undecided && on_these_parts() != truth) truth = Truth::undecided;
+      if (truth != Truth::undecided && on_these_pieces() != truth) truth = Truth::undecided;
     }
     return truth;
   }
 
   /// Goes on to the next combination; @returns false back at the first one
-  bool next_parts() {
+  bool next_pieces() {
     for (const std::uint32_t slot : variables_) {
       const std::size_t count = ranges_[slot].size();
       if (count == 1) continue;
-      const bool more = parts_[slot] + 1 < count;
-      set_part(slot, more ? parts_[slot] + 1 : 0);
+      const bool more = pieces_[slot] + 1 < count;
+      set_piece(slot, more ? pieces_[slot] + 1 : 0);
       if (more) return true;
     }
     return false;
   }
 
-  Truth on_these_parts() {
+  Truth on_these_pieces() {
     return decider_.decide(std::span<const Interval>(fast_), [&] { return exact_box(); });
   }
 
   std::span<const RationalInterval> exact_box() {
     for (const std::uint32_t slot : variables_) {
-      exact_[slot] = axes_[slot].ranges(indices_[slot])[parts_[slot]];
+      exact_[slot] = axes_[slot].ranges(indices_[slot])[pieces_[slot]];
     }
     return exact_;
   }
@@ -185,7 +185,7 @@ class TruthTable::Filler {
   const Undecided& undecided_;
   std::vector<std::uint32_t> variables_;
   std::vector<std::int64_t> indices_;
-  std::vector<std::size_t> parts_;
+  std::vector<std::size_t> pieces_;
   std::vector<FastRanges> made_;                   ///< of indices whose ranges are not kept
   std::vector<std::span<const Interval>> ranges_;  ///< of the indices
   std::vector<Interval> fast_;

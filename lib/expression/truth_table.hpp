@@ -35,7 +35,7 @@ struct ConditionAxis {
   using Ranges = std::vector<RationalInterval>;
   std::int64_t count = 0;
   /// Mostly one range; several (all of them can occur) for a cell that is cut by a seam. Called by many
-  /// threads, and again for what is asked again: an axis can be too long to be kept.
+  /// threads, and again for repeated queries: an axis can be too long to be kept.
   std::function<Ranges(std::int64_t index)> ranges;
   /// Another view of the variable in this slot: its index is that one's. Then the condition is asked
   /// comparison by comparison (CellTruth).

@@ -10,8 +10,8 @@ namespace coordreq {
 /// Number of cells that are read at a time by code that goes through a whole array.
 inline constexpr std::int64_t kBlockCells = 1 << 20;
 
-/// A box of cells: the grid indices first[i], ..., first[i] + count[i] - 1 of each dimension i. Arrays over
-/// it are row-major, the last dimension fastest.
+/// A box of cells: the grid indices first[i], ..., first[i] + count[i] - 1 of each dimension i. Arrays of
+/// its cells are row-major, the last dimension fastest.
 struct CellBlock {
   std::vector<std::int64_t> first;
   std::vector<std::int64_t> count;

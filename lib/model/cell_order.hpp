@@ -30,12 +30,12 @@ class CellOrder {
     std::int64_t row_step = 0;
     std::int64_t column_step = 0;
     std::int64_t count = 0;
-    std::int64_t offset = 0;  ///< of the first cell from the beginning of the stretch
+    std::int64_t offset = 0;  ///< of the first cell from the beginning of the visited cells
   };
 
   /// Position of the first cell of a run in the engine's grid, row-major, and from one of its cells to the
   /// next.
-  [[nodiscard]] std::int64_t place(const Run& run) const { return run.row * row_length_ + run.column; }
+  [[nodiscard]] std::int64_t position(const Run& run) const { return run.row * row_length_ + run.column; }
   [[nodiscard]] std::int64_t step(const Run& run) const {
     return run.row_step * row_length_ + run.column_step;
   }

@@ -26,11 +26,11 @@ enum class Sampling : std::uint8_t {
     const UniformGrid& grid, const InputSpace& inputs, Sampling sampling,
     std::optional<ThreadTeam::Range> leading = std::nullopt);
 /// Axes of the condition `allow`: grid points, and then each state once more as the whole cell, which
-/// memories are asked about (ControllerSpec::allow).
+/// memories are evaluated (ControllerSpec::allow).
 [[nodiscard]] std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs,
                                                     std::optional<ThreadTeam::Range> leading = std::nullopt);
 
-/// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on. The
+/// The truth of a condition on the grid, tabulated by only the states and inputs that it depends on. The
 /// condition numbers variables as the spec does; all else here is about dimensions of the grid.
 ///
 /// One bit row along the last dimension for each choice of the other states and inputs in use, so that
@@ -40,7 +40,7 @@ class ConditionTable {
   using Undecided = TruthTable::Undecided;
 
   /// @param undecided and @param question as for TruthTable
-  /// @param leading indices of the first dimension, or all; no row with another one may be asked for
+  /// @param leading indices of the first dimension, or all; no row with another one may be read
   /// @pre the rows of the grid run along its last dimension, and `leading` is all if that is the first one
   /// too. @pre unchecked: grid and inputs outlive this object
   ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,

@@ -17,11 +17,11 @@ constexpr std::int64_t kMostTabulated = std::int64_t{1} << 20U;
 InputClass::InputClass(const InputSpace& space, std::vector<std::int32_t> inputs)
     : inputs_(std::move(inputs)), space_size_(space.size()), joint_inputs_(space.count()) {
   std::sort(inputs_.begin(), inputs_.end());
-  own_.resize(inputs_.size());
-  for (std::size_t j = own_.size(); j-- > 0;) {
+  members_.resize(inputs_.size());
+  for (std::size_t j = members_.size(); j-- > 0;) {
     const auto input = static_cast<std::size_t>(inputs_[j]);
-    own_[j] = {.count = space[input].count(), .stride = space.stride(input), .own_stride = actions_};
-    actions_ *= own_[j].count;
+    members_[j] = {.count = space[input].count(), .stride = space.stride(input), .action_stride = actions_};
+    actions_ *= members_[j].count;
   }
 }
 
@@ -31,17 +31,17 @@ bool InputClass::contains(std::int32_t input) const {
 
 std::int64_t InputClass::compute_action(std::int64_t u) const {
   std::int64_t number = 0;
-  for (const Input& input : own_) number = number * input.count + u / input.stride % input.count;
+  for (const Input& input : members_) number = number * input.count + u / input.stride % input.count;
   return number;
 }
 
 std::vector<std::int64_t> InputClass::offsets(const std::vector<std::int64_t>& stride) const {
   std::vector<std::int64_t> result = {0};
-  for (std::size_t j = 0; j < own_.size(); ++j) {
+  for (std::size_t j = 0; j < members_.size(); ++j) {
     std::vector<std::int64_t> longer;
-    longer.reserve(result.size() * static_cast<std::size_t>(own_[j].count));
+    longer.reserve(result.size() * static_cast<std::size_t>(members_[j].count));
     for (const std::int64_t offset : result) {
-      for (std::int64_t k = 0; k < own_[j].count; ++k)
+      for (std::int64_t k = 0; k < members_[j].count; ++k)
         longer.push_back(offset + k * stride[static_cast<std::size_t>(inputs_[j])]);
     }
     result = std::move(longer);
@@ -51,14 +51,15 @@ std::vector<std::int64_t> InputClass::offsets(const std::vector<std::int64_t>& s
 
 std::vector<std::int64_t> InputClass::strides() const {
   std::vector<std::int64_t> stride(space_size_, 0);
-  for (std::size_t j = 0; j < own_.size(); ++j)
-    stride[static_cast<std::size_t>(inputs_[j])] = own_[j].own_stride;
+  for (std::size_t j = 0; j < members_.size(); ++j)
+    stride[static_cast<std::size_t>(inputs_[j])] = members_[j].action_stride;
   return stride;
 }
 
-std::vector<std::int64_t> InputClass::parts() const {
+std::vector<std::int64_t> InputClass::offsets() const {
   std::vector<std::int64_t> stride(space_size_, 0);
-  for (std::size_t j = 0; j < own_.size(); ++j) stride[static_cast<std::size_t>(inputs_[j])] = own_[j].stride;
+  for (std::size_t j = 0; j < members_.size(); ++j)
+    stride[static_cast<std::size_t>(inputs_[j])] = members_[j].stride;
   return offsets(stride);
 }
 
@@ -82,8 +83,8 @@ InputClass class_of(const SystemSpec& spec, const InputSpace& space,
                     const std::vector<std::int32_t>& agents) {
   std::vector<std::int32_t> inputs;
   for (const std::int32_t agent : agents) {
-    const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
-    inputs.insert(inputs.end(), own.begin(), own.end());
+    const auto& agent_inputs = spec.agents[static_cast<std::size_t>(agent)].inputs;
+    inputs.insert(inputs.end(), agent_inputs.begin(), agent_inputs.end());
   }
   return {space, std::move(inputs)};
 }

@@ -31,7 +31,7 @@ class InputClass {
   /// [input of the space] its stride in the number of an action; 0 for those of other classes.
   [[nodiscard]] std::vector<std::int64_t> strides() const;
   /// [action] what it adds to the number of a joint input.
-  [[nodiscard]] std::vector<std::int64_t> parts() const;
+  [[nodiscard]] std::vector<std::int64_t> offsets() const;
   /// The projection of a set of joint inputs onto the class, ascending.
   [[nodiscard]] std::vector<std::int64_t> project(const std::vector<std::int64_t>& joint_inputs) const;
 
@@ -41,14 +41,14 @@ class InputClass {
  private:
   struct Input {
     std::int64_t count = 0;
-    std::int64_t stride = 1;      ///< in the number of a joint input
-    std::int64_t own_stride = 1;  ///< in the number of an action
+    std::int64_t stride = 1;         ///< in the number of a joint input
+    std::int64_t action_stride = 1;  ///< in the number of an action
   };
 
   [[nodiscard]] std::int64_t compute_action(std::int64_t u) const;
 
   std::vector<std::int32_t> inputs_;
-  std::vector<Input> own_;  ///< [position in inputs_]
+  std::vector<Input> members_;  ///< [position in inputs_]
   std::size_t space_size_ = 0;
   std::int64_t joint_inputs_ = 1;
   std::int64_t actions_ = 1;
@@ -61,9 +61,9 @@ class InputClass {
 /// The classes of a partition, in its order: the inputs of all agents of each.
 [[nodiscard]] std::vector<InputClass> input_classes(const SystemSpec& spec, const InputSpace& space,
                                                     const PartitionSpec& partition);
-/// Every agent by itself, in the order of the spec.
+/// Every agent alone, in the order of the spec.
 [[nodiscard]] std::vector<InputClass> agent_classes(const SystemSpec& spec, const InputSpace& space);
-/// Every input by itself.
+/// Every input alone.
 [[nodiscard]] std::vector<InputClass> single_classes(const InputSpace& space);
 /// All inputs together: actions are joint inputs.
 [[nodiscard]] InputClass whole_class(const InputSpace& space);

@@ -20,14 +20,14 @@ Rational position(const GridDimension& dimension, const Rational& value) {
 }
 
 std::int64_t index_of(const GridDimension& dimension, const Rational& value) {
-  const Rational place = position(dimension, value);
+  const Rational coordinate = position(dimension, value);
   if (dimension.periodic()) {
     const mpz_class count(static_cast<long>(dimension.count));
     mpz_class k;
-    mpz_fdiv_r(k.get_mpz_t(), floor_of(place).get_mpz_t(), count.get_mpz_t());
+    mpz_fdiv_r(k.get_mpz_t(), floor_of(coordinate).get_mpz_t(), count.get_mpz_t());
     return k.get_si();
   }
-  const std::int64_t k = floor_to_int(place);
+  const std::int64_t k = floor_to_int(coordinate);
   const std::int64_t top = dimension.count - 1;
   const Rational& error = dimension.measurement_error;
   if (k < 0 && traits(dimension.below).clamps && value >= dimension.first - error) return 0;

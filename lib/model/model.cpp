@@ -32,8 +32,8 @@ std::vector<std::size_t> components(const std::vector<TableShape>& shapes) {
   return first;
 }
 
-/// Where motion is coupled (sums) and led by what moves by itself, the sums come last, the longest of them
-/// along the rows; nothing if there is no such order.
+/// Where motion is coupled (sums) and led by states that move independently, the sums come last, the longest
+/// of them along the rows; nothing if there is no such order.
 std::optional<std::vector<std::size_t>> sums_last(const ProblemSpec& spec,
                                                   const std::vector<TableShape>& shapes) {
   const auto is_sum = [&](std::size_t i) { return shapes[i].sum; };
@@ -95,11 +95,11 @@ StateOrder choose_order(const ProblemSpec& spec, const std::vector<TableShape>& 
       order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return quality(a) < quality(b); });
   if (const auto summed = sums_last(spec, shapes)) return {*summed};
   const std::vector<std::size_t> component = components(shapes);
-  const auto place = [&](std::size_t i) {
+  const auto rank = [&](std::size_t i) {
     const bool with_last = component[i] == component[last];
     return std::tuple(i == last, with_last, component[i], with_last ? shapes[i].states.size() : 0, i);
   };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   if (!can_join_rows(spec)) return {order};
   const auto along = find_similar_rows(spec, shapes, order);
   if (!along) return {order};

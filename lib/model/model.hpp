@@ -59,10 +59,10 @@ class Model {
 ///
 /// 1. Rows run along a state that moves by an offset that does not depend on itself, if there is one: the
 /// longest, and of equals the last. Then a whole row is one window.
-/// 2. What moves with that state comes last, and before it what moves by itself, so that minima over the
+/// 2. What moves with that state comes last, and before it what moves independently, so that minima over the
 /// leading dimensions are shared (RowEngine). States that move together stand together.
-/// 3. But where motion is coupled and led by what moves by itself (SumRows), the leaders come first and the
-/// sums behind them, the longest along the rows.
+/// 3. But where motion is coupled and led by what moves independently (SumRows), the leaders come first and
+/// the sums behind them, the longest along the rows.
 /// 4. But where rows along several states are far more often equal if they run along others, those come last:
 /// find_similar_rows().
 /// The order of the spec is kept where nothing is gained.

@@ -53,7 +53,7 @@ struct IndexRange {
 [[nodiscard]] std::int32_t saturate_index(std::int64_t index);
 
 /// The cells of a periodic dimension that a raw range means, with 0 <= first < count. {0, count - 1} for a
-/// range as long as the period, and wherever 32 bits do not hold the place: an end that was saturated, or a
+/// range as long as the period, and wherever 32 bits do not hold the index: an end that was saturated, or a
 /// sum beyond them. @pre raw.first <= raw.last, count >= 1
 [[nodiscard]] IndexRange wrap_range(IndexRange raw, std::int64_t count);
 

@@ -32,7 +32,7 @@ IndexRange raw_range(const GridDimension& dimension, std::int64_t first, std::in
   constexpr std::int64_t kUnknown = std::int64_t{1} << 62;
   const bool known = first > -kUnknown && std::max(first, last + 1) < kUnknown;
   const bool far = first < -kFar || last > kFar;
-  // Beyond 64 bits nobody knows where on the ring that is.
+  // Beyond 64 bits its position on the ring is unknown.
   if (dimension.periodic() && !known) return {0, static_cast<std::int32_t>(dimension.count - 1)};
   if (dimension.periodic() && far) {
     const std::int64_t turns = first / dimension.count * dimension.count;

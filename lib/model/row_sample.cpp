@@ -44,8 +44,8 @@ std::int64_t cells_of(const ProblemSpec& spec, const std::vector<std::size_t>& s
   return product;
 }
 
-/// Whether `state` is one on which a table depends, its own by an offset apart.
-bool tells_rows_apart(const std::vector<TableShape>& shapes, std::size_t state) {
+/// Whether `state` is one on which a table depends, which is not only an offset.
+bool distinguishes_rows(const std::vector<TableShape>& shapes, std::size_t state) {
   for (std::size_t t = 0; t < shapes.size(); ++t) {
     const bool is_used = std::find(shapes[t].states.begin(), shapes[t].states.end(),
                                    static_cast<std::int32_t>(state)) != shapes[t].states.end();
@@ -70,7 +70,7 @@ class SafeAt {
   [[nodiscard]] Coordinate coordinate(std::size_t state, std::int64_t index) const {
     return {state, index, enclose(point(state, index))};
   }
-  void place(const std::vector<Coordinate>& coordinates) {
+  void move_to(const std::vector<Coordinate>& coordinates) {
     for (const Coordinate& one : coordinates) {
       index_[one.state] = one.index;
       value_[spec_.state_slot(one.state)] = one.value;
@@ -133,24 +133,24 @@ RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& sh
   result.drawn = std::min(result.rows, kDrawnRows);
   Draw draw;
   SafeAt safe(spec);
-  const auto any_place = [&](const std::vector<std::size_t>& states) {
-    std::vector<Coordinate> place;
+  const auto draw_coordinates = [&](const std::vector<std::size_t>& states) {
+    std::vector<Coordinate> coordinates;
     for (const std::size_t i : states)
-      place.push_back(safe.coordinate(i, draw.below(spec.states[i].grid.count)));
-    return place;
+      coordinates.push_back(safe.coordinate(i, draw.below(spec.states[i].grid.count)));
+    return coordinates;
   };
   std::vector<std::vector<Coordinate>> lanes;
-  for (std::int64_t k = 0; k < kDrawnLanes; ++k) lanes.push_back(any_place(along));
+  for (std::int64_t k = 0; k < kDrawnLanes; ++k) lanes.push_back(draw_coordinates(along));
   std::set<std::vector<std::int64_t>> found;
   for (std::int64_t k = 0; k < result.drawn; ++k) {
-    const std::vector<Coordinate> row = any_place(across);
-    safe.place(row);
+    const std::vector<Coordinate> row = draw_coordinates(across);
+    safe.move_to(row);
     std::vector<std::int64_t> content;
     for (const Coordinate& one : row) {
-      if (tells_rows_apart(shapes, one.state)) content.push_back(one.index);
+      if (distinguishes_rows(shapes, one.state)) content.push_back(one.index);
     }
     for (const std::vector<Coordinate>& lane : lanes) {
-      safe.place(lane);
+      safe.move_to(lane);
       content.push_back(static_cast<std::int64_t>(safe.holds()));
     }
     found.insert(std::move(content));

@@ -23,7 +23,7 @@ struct RowSample {
   [[nodiscard]] bool operator==(const RowSample&) const = default;
 };
 
-/// Draws rows along the states `along`, the same ones whenever it is asked. What a table says of a row is
+/// Draws rows along the states `along`, the same ones in every call. What a table says of a row is
 /// taken to differ with every state across rows on which it depends otherwise than by an offset.
 /// @pre `along` are some of the states, or all of them
 [[nodiscard]] RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& shapes,

@@ -44,8 +44,8 @@ inline constexpr double kSafeMagnitude = 0x1p-960;
 [[nodiscard]] inline double add_down(double a, double b) {
   const double sum = a + b;
   if (!(std::fabs(sum) <= kLargest)) return sum == kInfinity ? kLargest : -kInfinity;
-  const double b_part = sum - a;
-  const double error = (a - (sum - b_part)) + (b - b_part);
+  const double b_virtual = sum - a;
+  const double error = (a - (sum - b_virtual)) + (b - b_virtual);
   return error >= 0.0 ? sum : next_down(sum);  // NaN after an overflow on the way counts as inexact
 }
 [[nodiscard]] inline double add_up(double a, double b) {

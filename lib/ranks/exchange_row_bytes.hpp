@@ -8,7 +8,7 @@
 namespace coordreq {
 
 /// A message with what stands in the rows that a peer holds too.
-/// @param is_sent is asked of own rows @param bytes_of an own row
+/// @param is_sent is called with local rows @param bytes_of a local row
 template <class IsSent, class BytesOf>
 [[nodiscard]] Bytes rows_message(const RowShare::Peer& peer, const IsSent& is_sent, const BytesOf& bytes_of) {
   Bytes message;

@@ -9,7 +9,7 @@ namespace coordreq {
 
 using Bytes = std::vector<std::byte>;
 
-/// Processes that work on one problem together, and what they can tell each other. Ranks are numbered from 0.
+/// Processes that work on one problem together, and what they can send each other. Ranks are numbered from 0.
 ///
 /// All of them run the same program, and call what is marked *together* in the same order. Called by one
 /// thread of each at a time. Every function may throw what has ended the work elsewhere.
@@ -20,7 +20,7 @@ class Ranks {
   [[nodiscard]] virtual int rank() const = 0;
   [[nodiscard]] virtual int count() const = 0;
 
-  /// Hands over a message; does not wait until it has arrived. Those from one rank to another arrive in the
+  /// Sends a message; does not wait until it has arrived. Those from one rank to another arrive in the
   /// order in which they were sent.
   virtual void send(int to, Bytes message) = 0;
   /// Waits for the next message of a rank.
@@ -38,7 +38,7 @@ class Ranks {
   virtual void add(std::span<std::int64_t> values) = 0;
   virtual void take_greatest(std::span<std::int64_t> values) = 0;
 
-  /// Together: a sum of which begin_sum() waits for nobody; finish_sum() tells it. One at a time, and add()
+  /// Together: a sum of which begin_sum() does not wait; finish_sum() returns it. One at a time, and add()
   /// may be called between both.
   virtual void begin_sum(std::int64_t value) = 0;
   [[nodiscard]] virtual std::int64_t finish_sum() = 0;
@@ -63,7 +63,7 @@ void put_numbers(Bytes& message, std::span<const Number> numbers) {
   message.insert(message.end(), bytes.begin(), bytes.end());
 }
 
-/// Reads a message from its beginning. @throws std::out_of_range if it is shorter than what is asked for
+/// Reads a message from its beginning. @throws std::out_of_range if it is shorter than what is requested
 class MessageReader {
  public:
   explicit MessageReader(const Bytes& message) : rest_(message) {}

@@ -38,17 +38,17 @@ std::vector<Range> runs_of(const Bytes& message) {
 }  // namespace
 
 RowShare::RowShare(Ranks& ranks, std::vector<std::int64_t> bounds)
-    : ranks_(&ranks), bounds_(std::move(bounds)), held_{own()} {}
+    : ranks_(&ranks), bounds_(std::move(bounds)), held_{local()} {}
 
-void RowShare::set_ghosts(const std::vector<std::uint8_t>& is_met) {
+void RowShare::set_ghosts(const std::vector<std::uint8_t>& is_reachable) {
   peers_.clear();
   held_.clear();
   for (int r = 0; r < ranks_->count(); ++r) {
     if (r == ranks_->rank()) {
-      held_.push_back(own());
+      held_.push_back(local());
       continue;
     }
-    Peer peer{.rank = r, .sent = {}, .received = marked_runs(is_met, run_of(r))};
+    Peer peer{.rank = r, .sent = {}, .received = marked_runs(is_reachable, run_of(r))};
     held_.insert(held_.end(), peer.received.begin(), peer.received.end());
     ranks_->send(r, message_of(peer.received));
     peers_.push_back(std::move(peer));
@@ -59,28 +59,28 @@ void RowShare::set_ghosts(const std::vector<std::uint8_t>& is_met) {
 
 std::vector<Range> ghost_rows(const RowShare& share) {
   std::vector<Range> runs = share.held();
-  std::erase_if(runs,
-                [own = share.own()](Range run) { return own.begin <= run.begin && run.end <= own.end; });
+  std::erase_if(
+      runs, [local = share.local()](Range run) { return local.begin <= run.begin && run.end <= local.end; });
   return runs;
 }
 
 void for_each_row_of(ThreadTeam& team, const std::vector<Range>& runs, std::int64_t grain,
                      const ThreadTeam::Body& body) {
-  std::vector<Range> pieces;
+  std::vector<Range> blocks;
   for (const Range run : runs) {
     for (std::int64_t begin = run.begin; begin < run.end; begin += grain)
-      pieces.push_back({begin, std::min(begin + grain, run.end)});
+      blocks.push_back({begin, std::min(begin + grain, run.end)});
   }
-  team.for_each(static_cast<std::int64_t>(pieces.size()), 1, [&](Range range, int worker) {
-    for (std::int64_t i = range.begin; i < range.end; ++i) body(pieces[static_cast<std::size_t>(i)], worker);
+  team.for_each(static_cast<std::int64_t>(blocks.size()), 1, [&](Range range, int worker) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) body(blocks[static_cast<std::size_t>(i)], worker);
   });
 }
 
-void for_each_own_row(ThreadTeam& team, const RowShare* share, std::int64_t rows, std::int64_t grain,
-                      const ThreadTeam::Body& body) {
-  const Range own = own_rows(share, rows);
-  team.for_each(own.end - own.begin, grain, [&](Range range, int worker) {
-    body({own.begin + range.begin, own.begin + range.end}, worker);
+void for_each_local_row(ThreadTeam& team, const RowShare* share, std::int64_t rows, std::int64_t grain,
+                        const ThreadTeam::Body& body) {
+  const Range local = local_rows(share, rows);
+  team.for_each(local.end - local.begin, grain, [&](Range range, int worker) {
+    body({local.begin + range.begin, local.begin + range.end}, worker);
   });
 }
 

@@ -15,7 +15,7 @@ DividedEntries::DividedEntries(TransitionTable& table, Places places, ThreadTeam
 void DividedEntries::join() {
   if (ranks_ == nullptr) return;
   Odometer choice(places_.counts);
-  tell_all(*ranks_, choice.size(), own_.begin, std::span<const IndexRange>(part_), [&](IndexRange entry) {
+  exchange_all(*ranks_, choice.size(), own_.begin, std::span<const IndexRange>(part_), [&](IndexRange entry) {
     std::int64_t position = places_.first;
     for (std::size_t v = 0; v < places_.strides.size(); ++v)
       position += choice.indices()[v] * places_.strides[v];

@@ -65,8 +65,8 @@ class SumTable {
 
   /// Together: takes in the bases that other processes have filled.
   void join(Ranks* ranks) {
-    join_parts(ranks, std::span(table_.base_lower));
-    join_parts(ranks, std::span(table_.base_upper));
+    join_segments(ranks, std::span(table_.base_lower));
+    join_segments(ranks, std::span(table_.base_upper));
   }
 
   /// Fills in all terms for one choice of what Phi depends on. @returns false if one is too large

@@ -83,14 +83,17 @@ hdf5::Handle ArrayWriter::write_copy(const hdf5::Handle& file, const std::string
                                               hdf5::create_space(shape), storage_of(layout, array.type));
   std::vector<std::byte>& packed = packed_.front();
   for (std::uint64_t i = 0; i < layout.chunk_count(); ++i) {
-    const auto offset = layout.stretch(i).offset;
-    const std::vector<hsize_t> place(offset.begin(), offset.end());
+    const auto offset = layout.segment(i).offset;
+    const std::vector<hsize_t> offset_of_chunk(offset.begin(), offset.end());
     hsize_t size = 0;
-    hdf5::check(H5Dget_chunk_storage_size(original.get(), place.data(), &size), what);
+    hdf5::check(H5Dget_chunk_storage_size(original.get(), offset_of_chunk.data(), &size), what);
     packed.resize(size);
     std::uint32_t filters = 0;
-    hdf5::check(H5Dread_chunk(original.get(), H5P_DEFAULT, place.data(), &filters, packed.data()), what);
-    hdf5::check(H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, filters, place.data(), size, packed.data()), what);
+    hdf5::check(H5Dread_chunk(original.get(), H5P_DEFAULT, offset_of_chunk.data(), &filters, packed.data()),
+                what);
+    hdf5::check(
+        H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, filters, offset_of_chunk.data(), size, packed.data()),
+        what);
   }
   driver_.check_written(what);
   return dataset;
@@ -107,11 +110,11 @@ void ArrayWriter::write_chunks(const hdf5::Handle& dataset, const std::string& p
       pack_batch(layout, array, first, count);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const auto offset = layout.stretch(first + i).offset;
-      const std::vector<hsize_t> place(offset.begin(), offset.end());
-      hdf5::check(
-          H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, 0, place.data(), packed_[i].size(), packed_[i].data()),
-          "write the dataset " + path);
+      const auto offset = layout.segment(first + i).offset;
+      const std::vector<hsize_t> offset_of_chunk(offset.begin(), offset.end());
+      hdf5::check(H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, 0, offset_of_chunk.data(), packed_[i].size(),
+                                 packed_[i].data()),
+                  "write the dataset " + path);
     }
     driver_.check_written("write the dataset " + path);
   }
@@ -123,10 +126,10 @@ void ArrayWriter::pack_batch(const ChunkLayout& layout, const ResultArray& array
   team_.for_each(static_cast<std::int64_t>(count), 1, [&](ThreadTeam::Range range, int worker) {
     Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
     for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
-      const ChunkLayout::Stretch stretch = layout.stretch(first + i);
+      const ChunkLayout::Segment segment = layout.segment(first + i);
       scratch.raw.resize(layout.chunk_elements() * size);
-      array.fill(stretch.begin, stretch.count, scratch.raw.data());
-      const auto padding = scratch.raw.begin() + static_cast<std::ptrdiff_t>(stretch.count * size);
+      array.fill(segment.begin, segment.count, scratch.raw.data());
+      const auto padding = scratch.raw.begin() + static_cast<std::ptrdiff_t>(segment.count * size);
       std::fill(padding, scratch.raw.end(), std::byte{0});
       scratch.codec.pack(scratch.raw, size, packed_[i]);
     }

@@ -27,7 +27,7 @@ class ArrayWriter {
   [[nodiscard]] static double bytes(double longest, int threads);
 
   /// @param driver the one that the files are written with
-  /// @param ranks who knows arrays over cells, if there are several processes; else null
+  /// @param ranks who knows arrays of cells, if there are several processes; else null
   /// @pre unchecked: both outlive the writer.
   ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, RankChunks* ranks = nullptr);
 

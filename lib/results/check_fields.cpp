@@ -43,7 +43,7 @@ class FieldChecker {
   }
 
   [[noreturn]] void fail(const std::string& what, const Field& field) const {
-    throw ResultsError(what, file_.place(field.path));
+    throw ResultsError(what, file_.location(field.path));
   }
 
   /// Its length and type. @returns whether it is there
@@ -68,7 +68,7 @@ class FieldChecker {
     if (!shape) return false;
     file_.expect_array(field.path, field.types, *shape);
     for (const FieldAttribute& attribute : field.attributes) check_count(field, attribute);
-    if (!is_over_cells(field)) {
+    if (!is_by_cell(field)) {
       std::uint64_t elements = 1;
       for (const std::uint64_t length : *shape) elements *= length;
       count_bytes(elements);
@@ -76,16 +76,16 @@ class FieldChecker {
     return true;
   }
 
-  /// By what the spec says is counted, bytes are told apart.
+  /// A count that the spec fixes has to be that one.
   void check_count(const Field& field, const FieldAttribute& attribute) const {
     const auto* const expected = std::get_if<std::uint64_t>(&attribute.value);
-    if (expected == nullptr || attribute.is_found) return;
+    if (expected == nullptr || attribute.is_computed) return;
     const std::int64_t found = file_.integer(field.path, attribute.name);
     if (found == static_cast<std::int64_t>(*expected)) return;
     fail(fmt::format("the attribute {} is {}, expected {}", attribute.name, found, *expected), field);
   }
 
-  [[nodiscard]] bool is_over_cells(const Field& field) const {
+  [[nodiscard]] bool is_by_cell(const Field& field) const {
     return std::search(field.axes.begin(), field.axes.end(), cell_axes_.begin(), cell_axes_.end()) !=
            field.axes.end();
   }
@@ -110,9 +110,9 @@ class FieldChecker {
   }
 
   void check_points(const Field& field, const GridPoints& points, std::uint64_t length) const {
-    constexpr std::uint64_t kPart = std::uint64_t{1} << 16U;
-    for (std::uint64_t begin = 0; begin < length; begin += kPart) {
-      const std::vector<double> found = file_.numbers(field.path, begin, std::min(kPart, length - begin));
+    constexpr std::uint64_t kSegment = std::uint64_t{1} << 16U;
+    for (std::uint64_t begin = 0; begin < length; begin += kSegment) {
+      const std::vector<double> found = file_.numbers(field.path, begin, std::min(kSegment, length - begin));
       for (std::uint64_t k = 0; k < found.size(); ++k) {
         if (found[k] == points.at(begin + k)) continue;
         fail("grid point " + std::to_string(begin + k) + " is not that of the spec", field);
@@ -134,9 +134,9 @@ Fields checked_fields(const ResultsFile& file, const ProblemSpec& spec,
 }
 
 const Field* SmallFields::find(const std::string& path) const {
-  const auto field = std::find_if(parts_.fields.begin(), parts_.fields.end(),
+  const auto field = std::find_if(metadata_.fields.begin(), metadata_.fields.end(),
                                   [&path](const Field& one) { return one.path == path; });
-  return field == parts_.fields.end() ? nullptr : &*field;
+  return field == metadata_.fields.end() ? nullptr : &*field;
 }
 
 bool SmallFields::has(const std::string& path) const {
@@ -162,8 +162,8 @@ std::vector<std::uint64_t> SmallFields::list(const std::string& path) const {
 }
 
 std::vector<std::uint64_t> SmallFields::counted(const std::string& path) const {
-  const auto found = parts_.counted.find(path);
-  return found == parts_.counted.end() ? std::vector<std::uint64_t>() : found->second;
+  const auto found = metadata_.counted.find(path);
+  return found == metadata_.counted.end() ? std::vector<std::uint64_t>() : found->second;
 }
 
 std::int64_t SmallFields::attribute(const std::string& path, const std::string& name) const {
@@ -179,7 +179,7 @@ void SmallFields::expect_length(const std::string& path, std::uint64_t length) c
 }
 
 void SmallFields::fail(const std::string& what, const std::string& path) const {
-  throw ResultsError(what, file_.place(path));
+  throw ResultsError(what, file_.location(path));
 }
 
 }  // namespace coordreq

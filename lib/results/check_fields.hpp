@@ -8,7 +8,7 @@
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "results/results_file.hpp"
-#include "results/results_parts.hpp"
+#include "results/results_metadata.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -16,15 +16,15 @@ namespace coordreq {
 /// The fields of this spec that the file has, which are all but optional ones. Before anything is read, or
 /// room is made for it, shapes, types and what is stored are compared with what the spec implies; then the
 /// coordinates are.
-/// @throws ResultsError naming the field; LimitError if what is not over cells needs more than `max_memory`
+/// @throws ResultsError naming the field; LimitError if what is not by cell needs more than `max_memory`
 [[nodiscard]] Fields checked_fields(const ResultsFile& file, const ProblemSpec& spec,
                                     std::optional<std::uint64_t> max_memory);
 
 /// Small fields as a whole.
 class SmallFields : public FieldSource {
  public:
-  /// @pre unchecked: both outlive this object. @param parts with fields and what was counted
-  SmallFields(const ResultsFile& file, const ResultsParts& parts) : file_(file), parts_(parts) {}
+  /// @pre unchecked: both outlive this object. @param metadata with fields and what was counted
+  SmallFields(const ResultsFile& file, const ResultsMetadata& metadata) : file_(file), metadata_(metadata) {}
 
   [[nodiscard]] bool has(const std::string& path) const override;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
@@ -40,7 +40,7 @@ class SmallFields : public FieldSource {
   [[nodiscard]] const Field* find(const std::string& path) const;
 
   const ResultsFile& file_;
-  const ResultsParts& parts_;
+  const ResultsMetadata& metadata_;
 };
 
 }  // namespace coordreq

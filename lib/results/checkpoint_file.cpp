@@ -31,9 +31,9 @@ std::string type_of(const NumberRows& rows) {
 }
 
 /// Calls `visit` with the numbers of the rows from byte `begin` on, row after row, up to byte `end`: where
-/// they stand in memory, how many bytes there are in one piece, and how many there were before.
+/// they stand in memory, how many bytes there are in one run, and how many there were before.
 template <class Visit>
-void for_each_stretch(const NumberRows& rows, std::int64_t begin, std::int64_t end, const Visit& visit) {
+void for_each_segment(const NumberRows& rows, std::int64_t begin, std::int64_t end, const Visit& visit) {
   const std::int64_t row_bytes = rows.row_bytes();
   for (std::int64_t at = begin; at < end;) {
     const std::int64_t in_row = at % row_bytes, count = std::min(row_bytes - in_row, end - at);
@@ -122,8 +122,8 @@ void CheckpointWriter::add(const NumberRows& rows) {
   for (std::int64_t at = 0; at < bytes; at += kBlockBytes) {
     const std::int64_t end = std::min(at + kBlockBytes, bytes);
     block_.resize(static_cast<std::size_t>(end - at));
-    for_each_stretch(rows, at, end, [this](const std::byte* from, std::size_t count, std::size_t place) {
-      std::memcpy(block_.data() + place, from, count);
+    for_each_segment(rows, at, end, [this](const std::byte* from, std::size_t count, std::size_t offset) {
+      std::memcpy(block_.data() + offset, from, count);
     });
     put_block(static_cast<std::size_t>(rows.number_bytes));
     if (progress_) progress_();
@@ -207,7 +207,7 @@ class CheckpointReader::Scan {
     List list{.type = type != head.end() && type->is_string() ? type->get<std::string>() : "",
               .rows = positive(head, "rows"),
               .length = positive(head, "length"),
-              .place = reader_.file_.tellg()};
+              .offset = reader_.file_.tellg()};
     const std::int64_t number_bytes = list.type.size() == 2 ? list.type[1] - '0' : 0;
     std::int64_t bytes = 0;
     if (number_bytes < 1 || list.rows < 1 || list.length < 1 ||
@@ -269,7 +269,7 @@ bool CheckpointReader::read_some(std::size_t item, const NumberRows& rows, std::
   const std::int64_t row_bytes = rows.row_bytes(), bytes = count * row_bytes;
   const std::int64_t begin = first * row_bytes, end = begin + rows.rows * row_bytes;
   file_.clear();
-  file_.seekg(list.place);
+  file_.seekg(list.offset);
   for (std::int64_t at = 0; at < end; at += kBlockBytes) {
     const std::int64_t size = std::min(kBlockBytes, bytes - at);
     packed_.resize(read_length(file_, size, path_));
@@ -282,9 +282,9 @@ bool CheckpointReader::read_some(std::size_t item, const NumberRows& rows, std::
                       static_cast<std::size_t>(rows.number_bytes), block_))
       fail("a list cannot be unpacked", path_);
     const std::int64_t from = std::max(at, begin), to = std::min(at + size, end);
-    for_each_stretch(rows, from - begin, to - begin,
-                     [&](std::byte* target, std::size_t count_of, std::size_t place) {
-                       std::memcpy(target, block_.data() + (from - at) + place, count_of);
+    for_each_segment(rows, from - begin, to - begin,
+                     [&](std::byte* target, std::size_t count_of, std::size_t offset) {
+                       std::memcpy(target, block_.data() + (from - at) + offset, count_of);
                      });
   }
   return true;

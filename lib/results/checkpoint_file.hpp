@@ -59,7 +59,7 @@ class CheckpointWriter {
 };
 
 /// Reads such a file: sections by name, and their lists in the order in which they were added. Nothing in it
-/// is trusted: what is read has the place that it was given, or is refused.
+/// is trusted: what is read has its expected location, or is refused.
 class CheckpointReader {
  public:
   /// Goes through the whole file, so that no later read finds it damaged.
@@ -88,8 +88,8 @@ class CheckpointReader {
   struct List {
     std::string type;
     std::int64_t rows = 0;
-    std::int64_t length = 0;   ///< of a row
-    std::streamoff place = 0;  ///< of its first block
+    std::int64_t length = 0;    ///< of a row
+    std::streamoff offset = 0;  ///< of its first block
   };
   struct Section {
     std::string head;

@@ -59,10 +59,10 @@ rlim_t seconds_for(const std::string& path) {
 
 /// A limit that was there before and is lower stays.
 void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
-  rlimit own{};
-  if (getrlimit(what, &own) != 0 || own.rlim_cur <= most) return;
-  own.rlim_cur = most;
-  static_cast<void>(setrlimit(what, &own));
+  rlimit bound{};
+  if (getrlimit(what, &bound) != 0 || bound.rlim_cur <= most) return;
+  bound.rlim_cur = most;
+  static_cast<void>(setrlimit(what, &bound));
 }
 
 /// Address space of this process.
@@ -97,11 +97,11 @@ void silence() {
   limit(RLIMIT_AS, present_bytes() + kMostBytes);
 }
 
-/// Less than a child would be given where nobody else sets a limit.
+/// Less than a child would be given without another limit.
 bool is_short_of_memory() {
-  rlimit own{};
+  rlimit bound{};
   return is_held_to_memory() ||
-         (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur < present_bytes() + kMostBytes);
+         (getrlimit(RLIMIT_AS, &bound) == 0 && bound.rlim_cur < present_bytes() + kMostBytes);
 }
 
 /// The message for the parent: kDone, or the exit code and text of an Error.
@@ -126,8 +126,8 @@ std::string outcome_of(const std::function<void()>& read) {
       throw std::bad_alloc();  // the library fails in many ways where it is given none
     throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
   }
-  rlimit own{};
-  if (getrlimit(RLIMIT_CPU, &own) == 0 && own.rlim_cur < seconds_for(path))
+  rlimit bound{};
+  if (getrlimit(RLIMIT_CPU, &bound) == 0 && bound.rlim_cur < seconds_for(path))
     throw LimitError("reading takes more time of the processor than a process may have here", path);
   throw ResultsError("damaged results file (takes too long to read)", path);
 }

@@ -31,7 +31,7 @@ void shuffle_fixed(std::span<const std::byte> raw, std::span<std::byte> shuffled
 constexpr int kRawWindow = -15;
 constexpr int kMemoryLevel = 6;
 
-/// Whether runs of one byte are so long that to tell them alone packs best.
+/// Whether runs of one byte are so long that coding them alone packs best.
 bool has_long_runs(std::span<const std::byte> bytes) {
   constexpr std::size_t kLong = 50;
   std::size_t ends = 0;
@@ -39,15 +39,15 @@ bool has_long_runs(std::span<const std::byte> bytes) {
   return ends * kLong < bytes.size();
 }
 
-/// A look at some places, so that a chunk is compared as a whole with hardly any that it is not equal to.
+/// A hash of some positions, so that a chunk is compared as a whole with hardly any that it is not equal to.
 std::uint64_t mark_of(std::span<const std::byte> bytes) {
   constexpr std::size_t kLooks = 256;
   std::uint64_t mark = bytes.size();
-  std::uint64_t word = 0;
-  const std::size_t step = std::max(sizeof(word), bytes.size() / kLooks);
-  for (std::size_t at = 0; at + sizeof(word) <= bytes.size(); at += step) {
-    std::memcpy(&word, bytes.data() + at, sizeof(word));
-    mark = (mark ^ word) * 0x9E3779B97F4A7C15U;
+  std::uint64_t sample = 0;
+  const std::size_t step = std::max(sizeof(sample), bytes.size() / kLooks);
+  for (std::size_t at = 0; at + sizeof(sample) <= bytes.size(); at += step) {
+    std::memcpy(&sample, bytes.data() + at, sizeof(sample));
+    mark = (mark ^ sample) * 0x9E3779B97F4A7C15U;
     mark ^= mark >> 32U;
   }
   return mark;
@@ -81,7 +81,7 @@ bool unpack_chunk(std::span<const std::byte> packed, std::size_t bytes, bool def
     const std::unique_ptr<libdeflate_decompressor, Free> decompressor(libdeflate_alloc_decompressor());
     if (!decompressor) throw std::bad_alloc();
     raw.resize(bytes);
-    // Without a place for the length found, another length than that of the buffer is an error.
+    // Without an argument for the length found, another length than that of the buffer is an error.
     if (libdeflate_zlib_decompress(decompressor.get(), packed.data(), packed.size(), raw.data(), bytes,
                                    nullptr) != LIBDEFLATE_SUCCESS) {
       return false;

@@ -35,12 +35,12 @@ ChunkLayout::ChunkLayout(std::vector<std::uint64_t> shape, std::size_t element_s
   cut_ = shape_.size() - 1;
   while (cut_ > 0 && inner_ * shape_[cut_] <= target) inner_ *= shape_[cut_--];
   const std::uint64_t longest = std::max<std::uint64_t>(1, target / inner_);
-  pieces_ = divide_up(shape_[cut_], longest);
+  segments_ = divide_up(shape_[cut_], longest);
 
   chunk_shape_ = shape_;
   std::fill_n(chunk_shape_.begin(), cut_, 1);
-  chunk_shape_[cut_] = divide_up(shape_[cut_], pieces_);  // even pieces waste little padding
-  pieces_ = divide_up(shape_[cut_], chunk_shape_[cut_]);
+  chunk_shape_[cut_] = divide_up(shape_[cut_], segments_);  // even segments waste little padding
+  segments_ = divide_up(shape_[cut_], chunk_shape_[cut_]);
 }
 
 double ChunkLayout::largest_chunk(double bytes) {
@@ -55,16 +55,16 @@ std::uint64_t ChunkLayout::chunk_elements() const {
 }
 
 std::uint64_t ChunkLayout::chunk_count() const {
-  return product(shape_.begin(), shape_.begin() + static_cast<std::ptrdiff_t>(cut_)) * pieces_;
+  return product(shape_.begin(), shape_.begin() + static_cast<std::ptrdiff_t>(cut_)) * segments_;
 }
 
-ChunkLayout::Stretch ChunkLayout::stretch(std::uint64_t number) const {
+ChunkLayout::Segment ChunkLayout::segment(std::uint64_t number) const {
   REQUIRES(number < chunk_count());
   const std::uint64_t length = shape_[cut_];
-  const std::uint64_t first = number % pieces_ * chunk_shape_[cut_];
-  std::uint64_t slab = number / pieces_;
+  const std::uint64_t first = number % segments_ * chunk_shape_[cut_];
+  std::uint64_t slab = number / segments_;
 
-  Stretch result;
+  Segment result;
   result.begin = (slab * length + first) * inner_;
   result.count = std::min(chunk_shape_[cut_], length - first) * inner_;
   result.offset.assign(shape_.size(), 0);

@@ -11,10 +11,10 @@ namespace coordreq {
 /// How a row-major array is cut into the chunks of an HDF5 dataset.
 ///
 /// 1. A chunk has length 1 in the leading dimensions, some length in one, and the full length in those after
-///    it, so that its elements are one stretch of the array.
+///    it, so that its elements are one segment of the array.
 /// 2. Chunks have about 1 MiB and never more: a larger one would not fit HDF5's default chunk cache, and
-///    every read of a part would unpack it anew. Smaller arrays are cut finer, so that there is work for many
-///    threads.
+///    every read of a subset would unpack it anew. Smaller arrays are cut finer, so that there is work for
+///    many threads.
 /// 3. It depends on shape and element size alone, so that files do not depend on the number of threads.
 /// Arrays of a few KiB are not chunked at all.
 class ChunkLayout {
@@ -35,22 +35,22 @@ class ChunkLayout {
   [[nodiscard]] std::uint64_t chunk_elements() const;
   [[nodiscard]] std::uint64_t chunk_count() const;
 
-  /// The part of the array that lies in one chunk.
-  struct Stretch {
+  /// The segment of the array that lies in one chunk.
+  struct Segment {
     std::vector<std::uint64_t> offset;  ///< of the chunk's first element, by dimension
     std::uint64_t begin = 0;            ///< linear index of that element
     std::uint64_t count = 0;            ///< elements, without padding
   };
   /// Ascending in `begin`. @pre number < chunk_count()
-  [[nodiscard]] Stretch stretch(std::uint64_t number) const;
+  [[nodiscard]] Segment segment(std::uint64_t number) const;
 
  private:
   std::vector<std::uint64_t> shape_;
   std::uint64_t elements_ = 1;
   std::vector<std::uint64_t> chunk_shape_;
-  std::size_t cut_ = 0;       // the dimension that is cut into pieces
-  std::uint64_t inner_ = 1;   // product of the dimensions after it
-  std::uint64_t pieces_ = 1;  // along it
+  std::size_t cut_ = 0;         // the dimension that is cut into segments
+  std::uint64_t inner_ = 1;     // product of the dimensions after it
+  std::uint64_t segments_ = 1;  // along it
 };
 
 }  // namespace coordreq

@@ -79,13 +79,13 @@ void match_partitions(const ProblemSpec& before, const ProblemSpec& after, Resul
   const std::vector<PartitionSpec>& old = before.coordination.partitions;
   const std::vector<PartitionSpec>& now = after.coordination.partitions;
   std::vector<std::optional<std::size_t>> partner(old.size());
-  std::vector<bool> taken(now.size(), false);
+  std::vector<bool> matched(now.size(), false);
   for (const auto same : {same_name, same_classes}) {
     for (std::size_t i = 0; i < old.size(); ++i) {
       for (std::size_t j = 0; j < now.size() && !partner[i]; ++j) {
-        if (taken[j] || !same(old[i], now[j])) continue;
+        if (matched[j] || !same(old[i], now[j])) continue;
         partner[i] = j;
-        taken[j] = true;
+        matched[j] = true;
       }
     }
   }
@@ -97,7 +97,7 @@ void match_partitions(const ProblemSpec& before, const ProblemSpec& after, Resul
     }
   }
   for (std::size_t j = 0; j < now.size(); ++j) {
-    if (!taken[j]) result.only_after.push_back(j);
+    if (!matched[j]) result.only_after.push_back(j);
   }
 }
 

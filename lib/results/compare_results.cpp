@@ -38,10 +38,10 @@ bool is_worse(const ValueChange& a, const ValueChange& b) {
   return a.cell < b.cell;
 }
 
-/// Calls `visit(first cell, values before, values after)` for one part of the cells after the other.
+/// Calls `visit(first cell, values before, values after)` for one segment of the cells after the other.
 template <class Read, class Visit>
-void for_each_part(const ResultsReader& before, const ResultsReader& after, const Read& read,
-                   const Visit& visit) {
+void for_each_segment(const ResultsReader& before, const ResultsReader& after, const Read& read,
+                      const Visit& visit) {
   const std::int64_t cells = before.grid().cells();
   for (std::int64_t begin = 0; begin < cells; begin += kBlockCells) {
     const std::int64_t end = std::min(begin + kBlockCells, cells);
@@ -50,12 +50,12 @@ void for_each_part(const ResultsReader& before, const ResultsReader& after, cons
 }
 
 SetComparison compare_sets(const ResultsReader& before, const ResultsReader& after, const Field& field) {
-  SetComparison result{.name = field.path.substr(1), .words = field.display.compared};
+  SetComparison result{.name = field.path.substr(1), .label = field.display.compared};
   const auto read = [&field](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool) {
     return file.read_run(begin, end,
                          [&](const CellBlock& block) { return file.members(field, std::nullopt, block); });
   };
-  for_each_part(before, after, read, [&result](std::int64_t, const auto& old, const auto& now) {
+  for_each_segment(before, after, read, [&result](std::int64_t, const auto& old, const auto& now) {
     for (std::size_t i = 0; i < old.size(); ++i) {
       result.before += old[i];
       result.after += now[i];
@@ -124,19 +124,19 @@ void compare_values(const ResultsReader& before, const ResultsReader& after, con
                     const Field& field, ValueComparison& result) {
   using Leading = std::optional<std::size_t>;
   const auto& pair = result.entry;
-  CompareOptions own = options;
-  if (field.kind == FieldKind::probability) own.tolerance = 0;
-  const bool is_over_partitions = !field.fixed_points.empty();
-  ValueCounter counter(result, own,
-                       pair && is_over_partitions ? after.lower_bound(field, pair->after) : std::nullopt);
+  CompareOptions field_options = options;
+  if (field.kind == FieldKind::probability) field_options.tolerance = 0;
+  const bool is_by_partition = !field.fixed_points.empty();
+  ValueCounter counter(result, field_options,
+                       pair && is_by_partition ? after.lower_bound(field, pair->after) : std::nullopt);
   const std::string subject =
-      pair ? field.axes.front().substr(1) + " " + before.leading_names(field)[pair->before] : result.words;
+      pair ? field.axes.front().substr(1) + " " + before.leading_names(field)[pair->before] : result.label;
   const auto read = [&](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {
     const Leading leading = pair ? Leading(earlier ? pair->before : pair->after) : std::nullopt;
     return file.read_run(begin, end,
                          [&](const CellBlock& block) { return file.values(field, leading, block); });
   };
-  for_each_part(before, after, read, [&](std::int64_t begin, const auto& old, const auto& now) {
+  for_each_segment(before, after, read, [&](std::int64_t begin, const auto& old, const auto& now) {
     if (options.progress) options.progress(subject);
     for (std::size_t i = 0; i < old.size(); ++i) {
       const std::int64_t cell = begin + static_cast<std::int64_t>(i);
@@ -168,7 +168,7 @@ std::vector<EntryPair> common_entries(const ResultsReader& before, const Results
 /// Compares a field: every common entry, where it has a leading axis.
 void add_values(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
                 const Field& field, ResultsComparison& result) {
-  const ValueComparison begun{.name = field.path.substr(1), .words = field.display.compared};
+  const ValueComparison begun{.name = field.path.substr(1), .label = field.display.compared};
   std::vector<ValueComparison> all;
   if (after.leading_length(field) == 0) {
     all.push_back(begun);

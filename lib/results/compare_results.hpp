@@ -14,17 +14,17 @@
 // Whether and where two results can be compared cell by cell.
 namespace coordreq {
 
-/// A set of cells in both files, as the field says that it is called there and in words.
+/// A set of cells in both files, with its name there and its label.
 struct SetComparison {
   std::string name;         ///< "safe"
-  std::string words;        ///< "safe set"
+  std::string label;        ///< "safe set"
   std::int64_t before = 0;  ///< cells
   std::int64_t after = 0;
   std::int64_t left = 0;    ///< that are only in the earlier one
   std::int64_t joined = 0;  ///< only in the later one
 };
 
-/// Values of a cell, as ResultsReader::values() tells them.
+/// Values of a cell, as ResultsReader::values() reads them.
 struct ValueChange {
   std::int64_t cell = 0;
   std::int32_t before = 0;
@@ -33,7 +33,7 @@ struct ValueChange {
 
 /// Where a field has a leading axis, such as that of partitions: an entry that both files have.
 struct EntryPair {
-  std::size_t before = 0;  ///< place along the axis in the earlier file
+  std::size_t before = 0;  ///< position along the axis in the earlier file
   std::size_t after = 0;
 };
 
@@ -44,7 +44,7 @@ struct EntryPair {
 /// is, though the true one may be larger.
 struct ValueComparison {
   std::string name;   ///< "delay"
-  std::string words;  ///< what it is called
+  std::string label;  ///< what it is called
   std::optional<EntryPair> entry;
   std::int64_t lost = 0;          ///< cells with a smaller value than before
   std::int64_t left = 0;          ///< of these, cells that have left K

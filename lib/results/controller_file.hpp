@@ -18,16 +18,16 @@ namespace coordreq {
 [[nodiscard]] std::string controller_path(const ProblemSpec& spec);
 
 /// Reads `controller.file`: `/controller` of an HDF5 file (see check_stored_controller()) or a SCOTS static
-/// controller (see read_scots_controller()); its first bytes tell which.
+/// controller (see read_scots_controller()); its first bytes say which.
 /// @pre the spec has one
 /// @throws IoError if it cannot be read; ControllerError if it is neither, damaged, or on another grid,
-///   naming the place in it, what was found and what was expected
+///   naming the location in it, what was found and what was expected
 [[nodiscard]] ListedController read_controller_file(const ProblemSpec& spec);
 
 /// Checks its kind and its grids only.
 void check_controller_file(const ProblemSpec& spec);
 
-/// How far a grid point in a file may be off, as a part of the distance of neighbours.
+/// How far a grid point in a file may be off, as a fraction of the distance of neighbours.
 inline constexpr double kGridTolerance = 1e-3;
 
 /// The smallest distance of two of the points; none if there is but one.
@@ -48,7 +48,7 @@ inline constexpr double kGridTolerance = 1e-3;
 /// Checks what comes before the list of states.
 void check_scots_controller(const std::string& path, const ProblemSpec& spec);
 
-/// Checks that a results file (or one that others wrote in the same way) holds `/controller` over the grid of
+/// Checks that a results file (or one that others wrote by the same rules) holds `/controller` on the grid of
 /// the spec: its axes are the states of the spec in their order, its attribute `inputs` names the inputs in
 /// theirs, and the datasets of both have the grid points, up to the noise of last digits.
 /// @throws IoError; ResultsError naming the object, what was found and what was expected

@@ -43,21 +43,21 @@ ListOwners::ListOwners(const std::vector<std::int64_t>& sizes, int ranks)
   for (const std::int64_t size : sizes) start_.push_back(start_.back() + static_cast<std::uint64_t>(size));
 }
 
-std::size_t ListOwners::piece_of(std::uint64_t element) const {
+std::size_t ListOwners::run_of_element(std::uint64_t element) const {
   return static_cast<std::size_t>(std::upper_bound(start_.begin(), start_.end() - 1, element) -
                                   start_.begin()) -
          1;
 }
 
 int ListOwners::owner_of(std::uint64_t element) const {
-  return static_cast<int>(piece_of(element) % ranks_);
+  return static_cast<int>(run_of_element(element) % ranks_);
 }
 
 void ListOwners::for_each_run(std::uint64_t begin, std::uint64_t count, const Visit& visit) const {
   const std::uint64_t end = begin + count;
-  for (std::size_t piece = piece_of(begin); begin < end; ++piece) {
-    const std::uint64_t next = std::min(start_[piece + 1], end);
-    if (next > begin) visit(static_cast<int>(piece % ranks_), begin, next - begin);
+  for (std::size_t run = run_of_element(begin); begin < end; ++run) {
+    const std::uint64_t next = std::min(start_[run + 1], end);
+    if (next > begin) visit(static_cast<int>(run % ranks_), begin, next - begin);
     begin = next;
   }
 }

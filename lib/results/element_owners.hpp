@@ -25,7 +25,7 @@ class ElementOwners {
   virtual void for_each_run(std::uint64_t begin, std::uint64_t count, const Visit& visit) const = 0;
 };
 
-/// The owners of an array over cells: the processes that own the rows of the cells.
+/// The owners of an array of cells: the processes that own the rows of the cells.
 class CellOwners : public ElementOwners {
  public:
   /// @param of_cell elements of each cell. @pre unchecked: the others outlive this object.
@@ -52,7 +52,7 @@ class ListOwners : public ElementOwners {
   void for_each_run(std::uint64_t begin, std::uint64_t count, const Visit& visit) const override;
 
  private:
-  [[nodiscard]] std::size_t piece_of(std::uint64_t element) const;
+  [[nodiscard]] std::size_t run_of_element(std::uint64_t element) const;
 
   std::size_t ranks_;
   std::vector<std::uint64_t> start_;  ///< [list * ranks + rank], and the end

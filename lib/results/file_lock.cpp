@@ -22,10 +22,10 @@ int open_any(const std::string& path) {
 
 /// Meanwhile the file can have been replaced by another of the same name.
 bool has_name(int file, const std::string& path) {
-  struct stat own {};
+  struct stat opened {};
   struct stat named {};
-  return fstat(file, &own) == 0 && stat(path.c_str(), &named) == 0 && own.st_dev == named.st_dev &&
-         own.st_ino == named.st_ino;
+  return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr unsigned kOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 
-/// Without a limit the system gives what is asked for, unless a damaged file asks for too much.
+/// Without a limit the system gives what is requested, unless a damaged file requests too much.
 bool may_lack_memory() {
   rlimit limit{};
   return is_held_to_memory() || (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY);
@@ -75,7 +75,7 @@ void limit_kept_objects(const Handle& list) {
   check(H5Pset_mdc_config(list.get(), &config), "limit its cache");
 }
 
-/// No locks: the file written has a name that nobody else uses, a results file never changes once it is
+/// No locks: the file written has a name that no other process uses, a results file never changes once it is
 /// there, and on some cluster file systems locks do not work.
 Handle access_properties() {
   Handle list = property_list(H5P_FILE_ACCESS);

@@ -72,7 +72,7 @@ class Handle {
 /// @throws Failure "cannot <what>" with the system's reason if `status` is negative
 void check(herr_t status, std::string_view what);
 
-/// To be asked before much is written: what the library does when it is refused memory is not always to say
+/// To be called before much is written: what the library does when it is refused memory is not always to say
 /// so. @throws std::bad_alloc if addresses are limited and next to none are left
 void expect_memory();
 
@@ -112,7 +112,7 @@ struct Storage {
 /// Variable-length strings.
 [[nodiscard]] bool holds_long_strings(const Handle& type);
 
-/// Strings that the library makes when it reads into data(), and that are its own.
+/// Strings that the library makes when it reads into data(), and that it owns.
 class LibraryStrings {
  public:
   LibraryStrings(const Handle& type, const Handle& space, std::uint64_t count)

@@ -25,7 +25,7 @@ hdf5::Handle reference_record_type() {
   return type;
 }
 
-std::string last_part(const std::string& path) {
+std::string last_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
 
@@ -64,7 +64,7 @@ hdf5::Handle NetcdfWriter::add_coordinates(const std::string& path, std::uint64_
                                            const ResultArray& array) {
   make_groups(path);
   hdf5::Handle dataset = arrays_.write(file_, path, {length}, array);
-  make_scale(dataset, path, length, last_part(path));
+  make_scale(dataset, path, length, last_name(path));
   return dataset;
 }
 
@@ -77,7 +77,7 @@ hdf5::Handle NetcdfWriter::add_coordinates(const std::string& path, const std::v
   hdf5::Handle dataset = hdf5::create_dataset(file_, path, type.get(), hdf5::create_space({texts.size()}));
   hdf5::check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, hdf5::text_transfer().get(), data.data()),
               "write the dataset " + path);
-  make_scale(dataset, path, texts.size(), last_part(path));
+  make_scale(dataset, path, texts.size(), last_name(path));
   return dataset;
 }
 

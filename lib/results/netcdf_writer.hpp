@@ -41,10 +41,10 @@ class NetcdfWriter {
   hdf5::Handle add_coordinates(const std::string& path, std::uint64_t length, const ResultArray& array);
   hdf5::Handle add_coordinates(const std::string& path, const std::vector<std::string>& texts);
 
-  /// A dataset over dimensions, named by their paths; none for a scalar.
+  /// A dataset with dimensions, named by their paths; none for a scalar.
   hdf5::Handle add_array(const std::string& path, const std::vector<std::string>& dimensions,
                          const ResultArray& array);
-  /// add_array() for an array that is known to equal that of `original`, over the same dimensions.
+  /// add_array() for an array that is known to equal that of `original`, with the same dimensions.
   hdf5::Handle add_copy(const std::string& path, const std::vector<std::string>& dimensions,
                         const ResultArray& array, const hdf5::Handle& original);
   hdf5::Handle add_text(const std::string& path, const std::string& text);

@@ -85,36 +85,36 @@ haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t /*type*/) {
 }
 
 /// Bytes that were never written read as zeros.
-herr_t read_output(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t place, std::size_t size,
+herr_t read_output(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t offset, std::size_t size,
                    void* buffer) {
   auto* out = static_cast<char*>(buffer);
   while (size > 0) {
-    const ssize_t count = pread(state_of(file).descriptor, out, size, static_cast<off_t>(place));
+    const ssize_t count = pread(state_of(file).descriptor, out, size, static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) note_error(state_of(file));
     if (count <= 0) break;
     out += count;
-    place += static_cast<haddr_t>(count);
+    offset += static_cast<haddr_t>(count);
     size -= static_cast<std::size_t>(count);
   }
   std::memset(out, 0, size);
   return 0;
 }
 
-herr_t write_output(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t place, std::size_t size,
+herr_t write_output(H5FD_t* file, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t offset, std::size_t size,
                     const void* buffer) {
   OutputState& state = state_of(file);
   const auto* data = static_cast<const char*>(buffer);
-  state.end_of_file = std::max<haddr_t>(state.end_of_file, place + size);
+  state.end_of_file = std::max<haddr_t>(state.end_of_file, offset + size);
   while (size > 0) {
-    const ssize_t count = pwrite(state.descriptor, data, size, static_cast<off_t>(place));
+    const ssize_t count = pwrite(state.descriptor, data, size, static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       note_error(state);
       return 0;
     }
     data += count;
-    place += static_cast<haddr_t>(count);
+    offset += static_cast<haddr_t>(count);
     size -= static_cast<std::size_t>(count);
   }
   return 0;

@@ -6,8 +6,8 @@
 
 namespace coordreq::hdf5 {
 
-/// A file driver that never tells the HDF5 library that a write failed, and keeps the reason instead, which
-/// the writer has to ask for. The bytes in the file are those of the default driver.
+/// A file driver that never reports to the HDF5 library that a write failed, and keeps the reason instead,
+/// which the writer has to ask for. The bytes in the file are those of the default driver.
 ///
 /// The library cannot give up a file that it cannot write to: closing it on a full disk frees its memory but
 /// keeps its identifier, and the program crashes when it ends. With this driver it always closes, and the

@@ -88,7 +88,7 @@ std::optional<std::string> process_space() {
 }
 
 /// Whether `name` is `beginning`, the number of a process that is no more, another number, and `end`.
-bool is_left_over(std::string_view name, std::string_view beginning, std::string_view end) {
+bool is_leftover(std::string_view name, std::string_view beginning, std::string_view end) {
   if (name.size() <= beginning.size() + end.size() || !name.starts_with(beginning) || !name.ends_with(end))
     return false;
   name.remove_prefix(beginning.size());
@@ -101,21 +101,21 @@ bool is_left_over(std::string_view name, std::string_view beginning, std::string
 }
 
 /// Removes files of a folder that processes that were killed have left.
-void remove_left_over(const fs::path& folder, const std::string& beginning, std::string_view end) {
+void remove_leftover(const fs::path& folder, const std::string& beginning, std::string_view end) {
   std::error_code error;
   for (fs::directory_iterator it(folder, error), last; !error && it != last; it.increment(error)) {
     std::error_code ignored;
-    if (is_left_over(it->path().filename().string(), beginning, end) && it->is_regular_file(ignored))
+    if (is_leftover(it->path().filename().string(), beginning, end) && it->is_regular_file(ignored))
       static_cast<void>(fs::remove(it->path(), ignored));
   }
 }
 
-/// A new file in `folder` under a name that nobody else has. Its name does not depend on the target's, which
-/// may already be as long as names can be.
+/// A new file in `folder` under a name that no other process has. Its name does not depend on the target's,
+/// which may already be as long as names can be.
 std::string create_temporary(const fs::path& folder, std::optional<mode_t> mode) {
   const std::optional<std::string> space = process_space();
   const std::string beginning = ".coordreq-" + space.value_or("unknown") + "-";
-  if (space) remove_left_over(folder, beginning, kTemporary);
+  if (space) remove_leftover(folder, beginning, kTemporary);
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     const std::string name =
         beginning + std::to_string(getpid()) + "-" + std::to_string(attempt) + std::string(kTemporary);
@@ -195,8 +195,8 @@ bool OutputFile::commit_new() {
 
 void remove_unfinished(const std::string& path, const std::string& suffix) {
   const fs::path target = resolve_links(path, "the file");
-  remove_left_over(target.has_parent_path() ? target.parent_path() : fs::path("."),
-                   target.filename().string() + ".", suffix);
+  remove_leftover(target.has_parent_path() ? target.parent_path() : fs::path("."),
+                  target.filename().string() + ".", suffix);
 }
 
 }  // namespace coordreq

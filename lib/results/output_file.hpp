@@ -16,7 +16,7 @@ namespace coordreq {
 class OutputFile {
  public:
   /// Makes the temporary file, empty.
-  /// @param what the content in words, for messages
+  /// @param what a label of the content, for messages
   /// @param suffix of the temporary file, whose name begins with that of `path`: for remove_unfinished().
   /// Empty:
   ///   any name
@@ -49,7 +49,7 @@ void remove_unfinished(const std::string& path, const std::string& suffix);
 
 /// Makes a file that appears whole or not at all (OutputFile): `write` fills the temporary one, whose path it
 /// is given.
-/// @param what the content in words, for messages: "the results"
+/// @param what a label of the content, for messages: "the results"
 /// @throws IoError naming `path` where `write` throws an hdf5::Failure or the file cannot be made; else what
 ///   `write` throws
 void write_whole_file(const std::string& path, const std::string& what,

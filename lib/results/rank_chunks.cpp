@@ -20,17 +20,17 @@ RankChunks::RankChunks(ThreadTeam& team, const RowShare& share, const CellOrder&
       group_size_(kGroupOfThread * static_cast<std::size_t>(team.size())),
       codecs_(static_cast<std::size_t>(team.size())) {}
 
-ChunkLayout::Stretch RankChunks::stretch(std::uint64_t chunk) const {
-  return layout_->chunked() ? layout_->stretch(chunk)
-                            : ChunkLayout::Stretch{.begin = 0, .count = layout_->elements()};
+ChunkLayout::Segment RankChunks::segment(std::uint64_t chunk) const {
+  return layout_->chunked() ? layout_->segment(chunk)
+                            : ChunkLayout::Segment{.begin = 0, .count = layout_->elements()};
 }
 
 /// The owner of some element of it: where every chunk has some of all ranks, each is chosen as often.
 int RankChunks::wanted_packer(std::uint64_t chunk) const {
-  constexpr std::uint64_t kPlaces = 8;
+  constexpr std::uint64_t kPositions = 8;
   if (!layout_->chunked()) return 0;
-  const ChunkLayout::Stretch stretch = layout_->stretch(chunk);
-  return owners_->owner_of(stretch.begin + stretch.count * (2 * (chunk % kPlaces) + 1) / (2 * kPlaces));
+  const ChunkLayout::Segment segment = layout_->segment(chunk);
+  return owners_->owner_of(segment.begin + segment.count * (2 * (chunk % kPositions) + 1) / (2 * kPositions));
 }
 
 /// Where agents that are alike are exchanged some ranks own many more cells than others.
@@ -69,15 +69,15 @@ void RankChunks::pack(const ChunkLayout& layout, const ResultArray& array) {
 }
 
 void RankChunks::pack_group(const ResultArray& array, std::size_t group) {
-  std::vector<GatheredStretch> works;
+  std::vector<GatheredSegment> works;
   for (int packer = 0; packer < share_.ranks().count(); ++packer) {
     const std::vector<std::uint64_t>& chunks = chunks_of_[static_cast<std::size_t>(packer)];
     for (std::size_t i = group * group_size_; i < std::min((group + 1) * group_size_, chunks.size()); ++i) {
-      const ChunkLayout::Stretch all = stretch(chunks[i]);
+      const ChunkLayout::Segment all = segment(chunks[i]);
       works.push_back({.taker = packer, .begin = all.begin, .count = all.count});
     }
   }
-  gather_stretches(share_.ranks(), team_, *owners_, array, works);
+  gather_segments(share_.ranks(), team_, *owners_, array, works);
   const std::size_t before = packed_.size();
   packed_.resize(before + works.size());
   const std::size_t size = element_size(array.type);
@@ -109,7 +109,7 @@ Bytes RankChunks::take(std::uint64_t chunk) {
   return result;
 }
 
-void RankChunks::hand_over() {
+void RankChunks::send_packed() {
   while (!packed_.empty()) {
     static_cast<void>(share_.ranks().receive(0));
     Bytes message;

@@ -18,13 +18,13 @@
 
 namespace coordreq {
 
-/// The chunks of arrays over cells, or of lists of them, of which several processes know their own. Each
+/// The chunks of arrays of cells, or of lists of them, of which each of several processes knows some. Each
 /// chunk is packed by one of them, one that owns elements of it as long as it has no more than its share of
 /// the chunks; what others know of it they send. Then rank 0 takes the chunks in the order of the file. No
-/// rank ever holds more than some chunks, what it has packed, and its part of the lists at work.
+/// rank ever holds more than some chunks, what it has packed, and its share of the lists at work.
 ///
 /// Chunks do not depend on the number of processes. All functions are called by all ranks together, but for
-/// take() and hand_over().
+/// take() and send_packed().
 class RankChunks {
  public:
   /// @pre unchecked: the arguments outlive this object.
@@ -32,16 +32,16 @@ class RankChunks {
 
   [[nodiscard]] bool is_first() const { return share_.ranks().rank() == 0; }
 
-  /// Fills all chunks of an array and packs them; one that is not chunked is one piece that is not packed.
+  /// Fills all chunks of an array and packs them; one that is not chunked is one segment that is not packed.
   /// @pre the array is divided
   void pack(const ChunkLayout& layout, const ResultArray& array);
-  /// Rank 0 takes every chunk, in their order, or the whole; meanwhile the others hand theirs over.
+  /// Rank 0 takes every chunk, in their order, or the whole; meanwhile the others send theirs.
   [[nodiscard]] Bytes take(std::uint64_t chunk);
-  void hand_over();
+  void send_packed();
 
  private:
   [[nodiscard]] std::uint64_t chunk_count() const { return layout_->chunked() ? layout_->chunk_count() : 1; }
-  [[nodiscard]] ChunkLayout::Stretch stretch(std::uint64_t chunk) const;
+  [[nodiscard]] ChunkLayout::Segment segment(std::uint64_t chunk) const;
   [[nodiscard]] int wanted_packer(std::uint64_t chunk) const;
   void choose_packers();
   void pack_group(const ResultArray& array, std::size_t group);
@@ -57,8 +57,8 @@ class RankChunks {
   const ElementOwners* owners_ = nullptr;
   std::vector<int> packer_;                            ///< [chunk]
   std::vector<std::vector<std::uint64_t>> chunks_of_;  ///< [rank] that it packs, ascending
-  std::deque<Bytes> packed_;                           ///< own ones, not handed over yet
-  std::vector<std::deque<Bytes>> received_;            ///< [rank] in rank 0: of the group asked for last
+  std::deque<Bytes> packed_;                           ///< local ones, not sent yet
+  std::vector<std::deque<Bytes>> received_;            ///< [rank] in rank 0: of the group requested last
 };
 
 }  // namespace coordreq

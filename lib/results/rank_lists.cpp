@@ -6,7 +6,7 @@
 namespace coordreq {
 namespace {
 
-/// Cells of which lists are told at a time, by each process to each.
+/// Cells of which lists are exchanged at a time, by each process with each.
 constexpr std::int64_t kCellsAtATime = std::int64_t{1} << 16U;
 
 }  // namespace
@@ -37,18 +37,18 @@ std::vector<std::uint32_t> RankLists::gather(ThreadTeam& team, const CellOrder& 
   for (int r = 0; r < ranks.count(); ++r) longest = std::max(longest, first_cell(r + 1) - first_cell(r));
   std::vector<std::uint32_t> result;
   for (std::int64_t done = 0; done < longest; done += kCellsAtATime) {
-    std::vector<GatheredStretch> stretches;
+    std::vector<GatheredSegment> segments;
     for (int r = 0; r < ranks.count(); ++r) {
       const std::int64_t begin = first_cell(r) + done;
       const std::int64_t count = std::min(kCellsAtATime, first_cell(r + 1) - begin);
       if (count > 0)
-        stretches.push_back({r, static_cast<std::uint64_t>(begin), static_cast<std::uint64_t>(count)});
+        segments.push_back({r, static_cast<std::uint64_t>(begin), static_cast<std::uint64_t>(count)});
     }
-    gather_stretches(ranks, team, owners, numbers, stretches);
-    for (const GatheredStretch& stretch : stretches) {
+    gather_segments(ranks, team, owners, numbers, segments);
+    for (const GatheredSegment& segment : segments) {
       const std::size_t before = result.size();
-      result.resize(before + stretch.count);
-      std::memcpy(result.data() + before, stretch.bytes.data(), stretch.bytes.size());
+      result.resize(before + segment.count);
+      std::memcpy(result.data() + before, segment.bytes.data(), segment.bytes.size());
     }
   }
   return result;
@@ -56,20 +56,20 @@ std::vector<std::uint32_t> RankLists::gather(ThreadTeam& team, const CellOrder& 
 
 void RankLists::count(const std::vector<std::uint32_t>& list_of, std::size_t lists) {
   Ranks& ranks = share_.ranks();
-  const auto all = static_cast<std::size_t>(ranks.count()), own = static_cast<std::size_t>(ranks.rank());
+  const auto all = static_cast<std::size_t>(ranks.count()), self = static_cast<std::size_t>(ranks.rank());
   std::vector<std::int64_t> sizes(lists * all, 0);
   for (const std::uint32_t list : list_of) {
-    if (list != CellLists::kNone) ++sizes[list * all + own];
+    if (list != CellLists::kNone) ++sizes[list * all + self];
   }
   ranks.add(sizes);
   owners_.emplace(sizes, ranks.count());
-  own_start_ = {0};
+  local_start_ = {0};
   std::uint64_t before = 0;
-  for (std::size_t piece = 0; piece < sizes.size(); ++piece) {
-    const auto size = static_cast<std::uint64_t>(sizes[piece]);
-    if (piece % all == own) {
+  for (std::size_t run = 0; run < sizes.size(); ++run) {
+    const auto size = static_cast<std::uint64_t>(sizes[run]);
+    if (run % all == self) {
       start_.push_back(before);
-      own_start_.push_back(own_start_.back() + size);
+      local_start_.push_back(local_start_.back() + size);
     }
     before += size;
   }
@@ -77,8 +77,8 @@ void RankLists::count(const std::vector<std::uint32_t>& list_of, std::size_t lis
 
 template <class Index>
 void RankLists::sort(const std::vector<std::uint32_t>& list_of) {
-  sorted_.resize(own_start_.back() * sizeof(Index));
-  std::vector<std::uint64_t> next = own_start_;
+  sorted_.resize(local_start_.back() * sizeof(Index));
+  std::vector<std::uint64_t> next = local_start_;
   auto cell = static_cast<Index>(first_cell(share_.ranks().rank()));
   for (const std::uint32_t list : list_of) {
     if (list != CellLists::kNone)
@@ -94,9 +94,10 @@ void RankLists::fill(std::uint64_t begin, std::uint64_t count, std::byte* out) c
   for (auto list = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0));
        list < start_.size() && start_[list] < begin + count; ++list) {
     const std::uint64_t first = std::max(start_[list], begin);
-    const std::uint64_t end = std::min(start_[list] + own_start_[list + 1] - own_start_[list], begin + count);
+    const std::uint64_t end =
+        std::min(start_[list] + local_start_[list + 1] - local_start_[list], begin + count);
     if (first >= end) continue;
-    const std::byte* const from = sorted_.data() + (own_start_[list] + first - start_[list]) * size;
+    const std::byte* const from = sorted_.data() + (local_start_[list] + first - start_[list]) * size;
     std::copy_n(from, (end - first) * size, out + (first - begin) * size);
   }
 }

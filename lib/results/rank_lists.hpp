@@ -14,20 +14,20 @@
 namespace coordreq {
 
 /// Elements of an array that one of several processes is to have, whoever knows them.
-struct GatheredStretch {
+struct GatheredSegment {
   int taker = 0;
   std::uint64_t begin = 0;
   std::uint64_t count = 0;
   Bytes bytes = {};
 };
 
-/// Together: every process sends what it knows of stretches to those who take them, and has the bytes of
+/// Together: every process sends what it knows of segments to those who take them, and has the bytes of
 /// those that it takes, in their order; the others are removed.
-void gather_stretches(Ranks& ranks, ThreadTeam& team, const ElementOwners& owners, const ResultArray& array,
-                      std::vector<GatheredStretch>& stretches);
+void gather_segments(Ranks& ranks, ThreadTeam& team, const ElementOwners& owners, const ResultArray& array,
+                     std::vector<GatheredSegment>& segments);
 
 /// Lists of cells that several processes make together: each sorts an equal run of the spec's cells, after
-/// the others have told it in which lists these are.
+/// the others have sent in which lists these are.
 class RankLists {
  public:
   /// Together. @param array with CellLists. @pre unchecked: the arguments outlive this object.
@@ -53,9 +53,9 @@ class RankLists {
   ElementType type_;
   std::int64_t cells_;
   std::optional<ListOwners> owners_;
-  std::vector<std::uint64_t> own_start_;  ///< [list] in sorted_
-  std::vector<std::uint64_t> start_;      ///< [list] of the own part in the whole
-  Bytes sorted_;                          ///< of the own run, list by list
+  std::vector<std::uint64_t> local_start_;  ///< [list] in sorted_
+  std::vector<std::uint64_t> start_;        ///< [list] of the local run in the whole
+  Bytes sorted_;                            ///< of the local run, list by list
 };
 
 }  // namespace coordreq

@@ -74,8 +74,8 @@ const StoredArray& ResultsFile::array(const std::string& path) const {
   const auto known = arrays_.find(path);
   if (known != arrays_.end()) return known->second;
   hdf5::Handle object = open(path);
-  if (H5Iget_type(object.get()) != H5I_DATASET) throw ResultsError("not a dataset", place(path));
-  return arrays_.emplace(path, StoredArray(std::move(object), bytes_, place(path))).first->second;
+  if (H5Iget_type(object.get()) != H5I_DATASET) throw ResultsError("not a dataset", location(path));
+  return arrays_.emplace(path, StoredArray(std::move(object), bytes_, location(path))).first->second;
 }
 
 std::vector<std::uint64_t> ResultsFile::shape(const std::string& dataset) const {
@@ -86,7 +86,7 @@ void ResultsFile::expect_shape(const std::string& dataset, const std::vector<std
   const std::vector<std::uint64_t>& found = array(dataset).shape();
   if (found == expected) return;
   throw ResultsError("wrong shape: found " + in_brackets(found) + ", expected " + in_brackets(expected),
-                     place(dataset));
+                     location(dataset));
 }
 
 void ResultsFile::expect_array(const std::string& dataset, const std::vector<ElementType>& types,
@@ -95,25 +95,25 @@ void ResultsFile::expect_array(const std::string& dataset, const std::vector<Ele
   const StoredArray& found = array(dataset);
   if (types.empty()) {
     const hdf5::Handle type(H5Dget_type(found.dataset().get()), H5Tclose, "read a type");
-    if (!hdf5::holds_long_strings(type) || !found.is_in_one_piece())
-      throw ResultsError("not variable-length strings", place(dataset));
+    if (!hdf5::holds_long_strings(type) || !found.is_contiguous())
+      throw ResultsError("not variable-length strings", location(dataset));
   } else if (!found.type() || std::find(types.begin(), types.end(), *found.type()) == types.end()) {
     std::string names;
     for (const ElementType type : types) names += (names.empty() ? "" : " and ") + std::string(name_of(type));
-    throw ResultsError("elements of another type than " + names, place(dataset));
+    throw ResultsError("elements of another type than " + names, location(dataset));
   }
   found.check_storage();
 }
 
 ElementType ResultsFile::element_type(const std::string& dataset) const {
   if (const std::optional<ElementType> type = array(dataset).type()) return *type;
-  throw ResultsError("elements of an unknown type", place(dataset));
+  throw ResultsError("elements of an unknown type", location(dataset));
 }
 
 void ResultsFile::read_block(const std::string& dataset, ElementType type,
                              const std::vector<std::uint64_t>& offset,
                              const std::vector<std::uint64_t>& count, void* out) const {
-  if (element_type(dataset) != type) throw ResultsError("elements of another type", place(dataset));
+  if (element_type(dataset) != type) throw ResultsError("elements of another type", location(dataset));
   array(dataset).read(offset, count, out, cache_);
 }
 
@@ -155,7 +155,7 @@ std::vector<std::string> ResultsFile::texts(const std::string& dataset) const {
                         strings.data()),
                 "read the strings");
   } catch (const hdf5::Failure&) {
-    throw ResultsError("cannot read the strings: damaged", place(dataset));
+    throw ResultsError("cannot read the strings: damaged", location(dataset));
   }
   return strings.copy();
 }

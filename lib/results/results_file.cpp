@@ -21,7 +21,7 @@ namespace {
 /// Groups in a results file are nested three deep; a file whose groups hold one another must not hang us.
 constexpr int kDeepestGroup = 8;
 
-/// The system's own word on why a file cannot be read is better than HDF5's. @returns the length
+/// The system's reason why a file cannot be read is clearer than HDF5's. @returns the length
 std::uint64_t check_readable(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) throw IoError(std::string("cannot read the results: ") + std::strerror(errno), path);
@@ -94,7 +94,7 @@ void ResultsFile::check_format() const {
   const hdf5::Handle attribute = open_attribute("/", "version");
   std::array<std::int32_t, 2> version{};
   if (element_count(space_of_attribute(attribute)) != version.size()) {
-    throw ResultsError("the attribute version does not hold two numbers", place("/"));
+    throw ResultsError("the attribute version does not hold two numbers", location("/"));
   }
   hdf5::check(H5Aread(attribute.get(), H5T_NATIVE_INT32, version.data()), "read the attribute version");
   if (version[0] != kResultsVersion[0]) {
@@ -104,35 +104,35 @@ void ResultsFile::check_format() const {
   }
 }
 
-std::string ResultsFile::place(const std::string& object) const {
+std::string ResultsFile::location(const std::string& object) const {
   return path_ + ":" + object;
 }
 
 bool ResultsFile::exists(const std::string& path) const {
-  // The library wants every group on the way to be there, and follows whatever link there is.
+  // The library wants every group along the path to be there, and follows whatever link there is.
   for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-    const std::string part = path.substr(0, end);
-    if (part == "/") return true;
-    if (H5Lexists(file_.get(), part.c_str(), H5P_DEFAULT) <= 0) return false;
+    const std::string prefix = path.substr(0, end);
+    if (prefix == "/") return true;
+    if (H5Lexists(file_.get(), prefix.c_str(), H5P_DEFAULT) <= 0) return false;
     H5L_info_t info{};
-    hdf5::check(H5Lget_info(file_.get(), part.c_str(), &info, H5P_DEFAULT), "look at " + part);
+    hdf5::check(H5Lget_info(file_.get(), prefix.c_str(), &info, H5P_DEFAULT), "look at " + prefix);
     if (info.type != H5L_TYPE_HARD)
-      throw ResultsError("a link to an object elsewhere, which results do not have", place(part));
+      throw ResultsError("a link to an object elsewhere, which results do not have", location(prefix));
     if (end == std::string::npos) return true;
   }
 }
 
 hdf5::Handle ResultsFile::open(const std::string& path) const {
-  if (!exists(path)) throw ResultsError("missing or damaged", place(path));
+  if (!exists(path)) throw ResultsError("missing or damaged", location(path));
   try {
     return hdf5::open_object(file_, path);
   } catch (const hdf5::Failure&) {
-    throw ResultsError("missing or damaged", place(path));
+    throw ResultsError("missing or damaged", location(path));
   }
 }
 
 hdf5::Handle ResultsFile::open_attribute(const std::string& path, const std::string& attribute) const {
-  if (!has(path, attribute)) throw ResultsError("the attribute " + attribute + " is missing", place(path));
+  if (!has(path, attribute)) throw ResultsError("the attribute " + attribute + " is missing", location(path));
   return {H5Aopen(open(path).get(), attribute.c_str(), H5P_DEFAULT), H5Aclose,
           "open the attribute " + attribute};
 }
@@ -150,7 +150,7 @@ void ResultsFile::read_attribute(const std::string& path, const std::string& att
   if (element_count(space_of_attribute(handle)) != count ||
       std::find(classes.begin(), classes.end(), found) == classes.end()) {
     const std::string expected = count == 1 ? "one number" : std::to_string(count) + " integers";
-    throw ResultsError("the attribute " + attribute + " is not " + expected, place(path));
+    throw ResultsError("the attribute " + attribute + " is not " + expected, location(path));
   }
   hdf5::check(H5Aread(handle.get(), type, out), "read the attribute " + attribute);
 }
@@ -159,7 +159,7 @@ double ResultsFile::number(const std::string& path, const std::string& attribute
   double value = 0;
   read_attribute(path, attribute, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER}, 1, &value);
   if (!std::isfinite(value))
-    throw ResultsError("the attribute " + attribute + " is not a finite number", place(path));
+    throw ResultsError("the attribute " + attribute + " is not a finite number", location(path));
   return value;
 }
 
@@ -179,7 +179,7 @@ std::vector<std::uint64_t> ResultsFile::naturals(const std::string& path, const 
   std::vector<std::int64_t> values(count);
   read_attribute(path, attribute, H5T_NATIVE_INT64, {H5T_INTEGER}, count, values.data());
   if (std::any_of(values.begin(), values.end(), [](std::int64_t value) { return value < 0; }))
-    throw ResultsError("the attribute " + attribute + " is negative", place(path));
+    throw ResultsError("the attribute " + attribute + " is negative", location(path));
   return {values.begin(), values.end()};
 }
 
@@ -188,7 +188,7 @@ std::string ResultsFile::text(const std::string& path, const std::string& attrib
   const hdf5::Handle space = space_of_attribute(handle);
   const hdf5::Handle type(H5Aget_type(handle.get()), H5Tclose, "read a type");
   if (!hdf5::holds_long_strings(type) || element_count(space) != 1) {
-    throw ResultsError("the attribute " + attribute + " is not a variable-length string", place(path));
+    throw ResultsError("the attribute " + attribute + " is not a variable-length string", location(path));
   }
   hdf5::LibraryStrings strings(type, space, 1);
   hdf5::check(H5Aread(handle.get(), type.get(), strings.data()), "read the attribute " + attribute);
@@ -201,13 +201,13 @@ std::vector<std::string> ResultsFile::axis_paths(const std::string& dataset) con
   const hdf5::Handle space = space_of_attribute(attribute);
   const hdf5::Handle type(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose, "create a type");
   if (element_count(space) != rank)
-    throw ResultsError("not every axis has a dimension scale", place(dataset));
+    throw ResultsError("not every axis has a dimension scale", location(dataset));
   const LibraryLists lists(attribute, type, space, rank);
   std::vector<std::string> names;
   for (std::size_t axis = 0; axis < rank; ++axis) {
     const std::string path = lists.first_referred_path(file_, axis);
     if (path.empty()) {
-      throw ResultsError("axis " + std::to_string(axis) + " has no dimension scale", place(dataset));
+      throw ResultsError("axis " + std::to_string(axis) + " has no dimension scale", location(dataset));
     }
     names.push_back(path);
   }
@@ -243,7 +243,7 @@ std::vector<std::string> ResultsFile::members(const std::string& group) const {
 
 void ResultsFile::collect_datasets(const std::string& group, int depth,
                                    std::vector<std::string>& found) const {
-  if (depth > kDeepestGroup) throw ResultsError("groups nested too deep", place(group));
+  if (depth > kDeepestGroup) throw ResultsError("groups nested too deep", location(group));
   for (const std::string& name : members(group.empty() ? "/" : group)) {
     const std::string path = group + "/" + name;
     const hdf5::Handle object = open(path);

@@ -23,7 +23,7 @@ class ResultsFile {
   ///   a version that this program reads
   explicit ResultsFile(const std::string& path, std::size_t cache_bytes = std::size_t{32} << 20U);
 
-  /// Attributes of the object at `path`; "/" for the file's own.
+  /// Attributes of the object at `path`; "/" for those of the file.
   [[nodiscard]] std::string text(const std::string& path, const std::string& attribute) const;
   /// @throws ResultsError also if it is not finite
   [[nodiscard]] double number(const std::string& path, const std::string& attribute) const;
@@ -50,7 +50,7 @@ class ResultsFile {
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& dataset) const;
-  /// A stretch of a list of floating point numbers.
+  /// A segment of a list of floating point numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& dataset, std::uint64_t begin,
                                             std::uint64_t count) const;
 
@@ -77,7 +77,7 @@ class ResultsFile {
   [[nodiscard]] hdf5::Handle open(const std::string& path) const;
 
   /// Where an error is: the file and an object in it.
-  [[nodiscard]] std::string place(const std::string& object) const;
+  [[nodiscard]] std::string location(const std::string& object) const;
 
  private:
   [[nodiscard]] hdf5::Handle open_attribute(const std::string& path, const std::string& attribute) const;

@@ -24,10 +24,10 @@ std::vector<std::uint64_t> unsigned_of(const std::vector<std::int64_t>& values) 
   return {values.begin(), values.end()};
 }
 
-/// A block of cells in an array over cells.
-struct Part {
-  /// @param leading place along an axis before those of the cells, if there is one
-  Part(std::optional<std::size_t> leading, const CellBlock& block)
+/// A block of cells in an array of cells.
+struct ArrayBox {
+  /// @param leading position along an axis before those of the cells, if there is one
+  ArrayBox(std::optional<std::size_t> leading, const CellBlock& block)
       : offset(unsigned_of(block.first)), count(unsigned_of(block.count)) {
     if (!leading) return;
     offset.insert(offset.begin(), *leading);
@@ -47,7 +47,7 @@ std::vector<std::int32_t> widened(const std::vector<Integer>& values) {
   return result;
 }
 
-/// Memory for unpacked chunks: a part of the memory that is left.
+/// Memory for unpacked chunks: a fraction of the memory that is left.
 std::size_t cache_bytes(std::optional<std::uint64_t> max_memory) {
   constexpr double kLeast = double{1U << 20U}, kMost = 128 * kLeast;
   if (!max_memory) return static_cast<std::size_t>(kMost);
@@ -59,7 +59,7 @@ std::size_t cache_bytes(std::optional<std::uint64_t> max_memory) {
 std::unique_ptr<ResultsFile> tried_file(const std::string& path, std::optional<std::uint64_t> max_memory,
                                         std::size_t cache) {
   const auto open = [&] { return std::make_unique<ResultsFile>(path, cache); };
-  try_in_child(path, [&] { reading(path, [&] { static_cast<void>(read_parts(*open(), max_memory)); }); });
+  try_in_child(path, [&] { reading(path, [&] { static_cast<void>(read_metadata(*open(), max_memory)); }); });
   return reading(path, open);
 }
 
@@ -70,12 +70,12 @@ ResultsReader::ResultsReader(const std::string& path, std::optional<std::uint64_
       max_memory_(max_memory),
       cache_bytes_(cache_bytes(max_memory)),
       file_(tried_file(path, max_memory, cache_bytes_)),
-      parts_(reading(path,
-                     [&] { return std::make_unique<const ResultsParts>(read_parts(*file_, max_memory)); })),
-      grid_(make_grid(parts_->spec)),
-      inputs_(make_input_space(parts_->spec)) {
-  for (std::size_t i = 0; i < parts_->fields.size(); ++i) field_of_path_[parts_->fields[i].path] = i;
-  for (const Field& field : parts_->fields) {
+      metadata_(reading(
+          path, [&] { return std::make_unique<const ResultsMetadata>(read_metadata(*file_, max_memory)); })),
+      grid_(make_grid(metadata_->spec)),
+      inputs_(make_input_space(metadata_->spec)) {
+  for (std::size_t i = 0; i < metadata_->fields.size(); ++i) field_of_path_[metadata_->fields[i].path] = i;
+  for (const Field& field : metadata_->fields) {
     if (!field.fixed_points.empty()) fixed_points_[field.fixed_points] = integers(field.fixed_points);
   }
 }
@@ -83,19 +83,19 @@ ResultsReader::ResultsReader(const std::string& path, std::optional<std::uint64_
 ResultsReader::~ResultsReader() = default;
 
 const ProblemSpec& ResultsReader::spec() const {
-  return parts_->spec;
+  return metadata_->spec;
 }
 
 const StoredAttributes& ResultsReader::attributes() const {
-  return parts_->attributes;
+  return metadata_->attributes;
 }
 
 const std::vector<StoredPartition>& ResultsReader::partitions() const {
-  return parts_->partitions;
+  return metadata_->partitions;
 }
 
 const Fields& ResultsReader::fields() const {
-  return parts_->fields;
+  return metadata_->fields;
 }
 
 template <class Value>
@@ -115,7 +115,7 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
 
 const Field& ResultsReader::field(const std::string& path) const {
   REQUIRES(has(path));
-  return parts_->fields[field_of_path_.at(path)];
+  return metadata_->fields[field_of_path_.at(path)];
 }
 
 double ResultsReader::elements(const Field& field) const {
@@ -128,7 +128,7 @@ double ResultsReader::elements(const Field& field) const {
 double ResultsReader::reading_bytes() const {
   constexpr double kBytesOfCell = 16;  // as it is stored, widened, and joined with others
   double stored = 0;
-  for (const Field& field : parts_->fields) {
+  for (const Field& field : metadata_->fields) {
     if (field.scale || field.types.empty()) continue;
     stored += elements(field) * static_cast<double>(element_size(file_->element_type(field.path)));
   }
@@ -153,16 +153,16 @@ const std::vector<std::string>& ResultsReader::leading_names(const Field& field)
 std::optional<std::int64_t> ResultsReader::lower_bound(const Field& field, std::size_t partition) const {
   REQUIRES(partition < partitions().size());
   if (field.fixed_points.empty() || fixed_points_.at(field.fixed_points)[partition] >= 0) return std::nullopt;
-  return parts_->spec.coordination.max_delay;
+  return metadata_->spec.coordination.max_delay;
 }
 
 std::vector<std::uint8_t> ResultsReader::members(const Field& field, Leading leading,
                                                  const CellBlock& block) const {
-  const Part part(leading, block);
+  const ArrayBox box(leading, block);
   std::vector<std::uint8_t> values =
-      elements<std::uint8_t>(field.path, ElementType::uint8, part.offset, part.count);
+      elements<std::uint8_t>(field.path, ElementType::uint8, box.offset, box.count);
   if (std::any_of(values.begin(), values.end(), [](std::uint8_t value) { return value > 1; })) {
-    throw ResultsError("a value other than 0 and 1: damaged", file_->place(field.path));
+    throw ResultsError("a value other than 0 and 1: damaged", file_->location(field.path));
   }
   return values;
 }
@@ -176,27 +176,27 @@ std::vector<std::int32_t> ResultsReader::values(const Field& field, Leading lead
                    [](float value) { return std::bit_cast<std::int32_t>(value); });
     return values;
   }
-  const Part part(leading, block);
+  const ArrayBox box(leading, block);
   const ElementType type = reading(path_, [&] { return file_->element_type(field.path); });
   if (type == ElementType::uint8) {
     const std::vector<std::uint8_t> found = members(field, leading, block);
     return {found.begin(), found.end()};
   }
   const std::vector<std::int32_t> values =
-      type == ElementType::int16 ? widened(elements<std::int16_t>(field.path, type, part.offset, part.count))
-                                 : widened(elements<std::int32_t>(field.path, type, part.offset, part.count));
+      type == ElementType::int16 ? widened(elements<std::int16_t>(field.path, type, box.offset, box.count))
+                                 : widened(elements<std::int32_t>(field.path, type, box.offset, box.count));
   for (const std::int32_t value : values) {
     if (value >= field.least && value <= field.most) continue;
     throw ResultsError(value < field.least ? fmt::format("found {}, expected at least {}", value, field.least)
                                            : fmt::format("found {}, expected at most {}", value, field.most),
-                       file_->place(field.path));
+                       file_->location(field.path));
   }
   return values;
 }
 
 std::vector<float> ResultsReader::reals(const Field& field, Leading leading, const CellBlock& block) const {
-  const Part part(leading, block);
-  std::vector<float> values = elements<float>(field.path, ElementType::float32, part.offset, part.count);
+  const ArrayBox box(leading, block);
+  std::vector<float> values = elements<float>(field.path, ElementType::float32, box.offset, box.count);
   if (field.kind != FieldKind::probability) return values;
   // -0 is refused: as an integer it would be less than all others.
   const auto found = std::find_if(values.begin(), values.end(), [](float value) {
@@ -204,40 +204,40 @@ std::vector<float> ResultsReader::reals(const Field& field, Leading leading, con
   });
   if (found != values.end())
     throw ResultsError(fmt::format("found {}, expected a number from 0 to 1", *found),
-                       file_->place(field.path));
+                       file_->location(field.path));
   return values;
 }
 
 std::vector<std::int64_t> ResultsReader::integers(const std::string& path) const {
-  return reading(path_, [&] { return SmallFields(*file_, *parts_).integers(path); });
+  return reading(path_, [&] { return SmallFields(*file_, *metadata_).integers(path); });
 }
 
 std::vector<double> ResultsReader::numbers(const std::string& path) const {
-  return reading(path_, [&] { return SmallFields(*file_, *parts_).numbers(path); });
+  return reading(path_, [&] { return SmallFields(*file_, *metadata_).numbers(path); });
 }
 
 std::vector<std::uint64_t> ResultsReader::list(const std::string& path) const {
-  return reading(path_, [&] { return SmallFields(*file_, *parts_).list(path); });
+  return reading(path_, [&] { return SmallFields(*file_, *metadata_).list(path); });
 }
 
 std::int64_t ResultsReader::attribute(const std::string& path, const std::string& name) const {
-  return SmallFields(*file_, *parts_).attribute(path, name);
+  return SmallFields(*file_, *metadata_).attribute(path, name);
 }
 
 double ResultsReader::number(const std::string& path, const std::string& name) const {
-  return SmallFields(*file_, *parts_).number(path, name);
+  return SmallFields(*file_, *metadata_).number(path, name);
 }
 
 std::vector<std::uint64_t> ResultsReader::counted(const std::string& path) const {
-  return SmallFields(*file_, *parts_).counted(path);
+  return SmallFields(*file_, *metadata_).counted(path);
 }
 
 void ResultsReader::expect_length(const std::string& path, std::uint64_t length) const {
-  reading(path_, [&] { SmallFields(*file_, *parts_).expect_length(path, length); });
+  reading(path_, [&] { SmallFields(*file_, *metadata_).expect_length(path, length); });
 }
 
 void ResultsReader::fail(const std::string& what, const std::string& path) const {
-  throw ResultsError(what, file_->place(path));
+  throw ResultsError(what, file_->location(path));
 }
 
 std::vector<std::string> ResultsReader::datasets() const {
@@ -247,15 +247,15 @@ std::vector<std::string> ResultsReader::datasets() const {
 }
 
 std::vector<std::uint8_t> ResultsReader::bits(const Field& field, const CellBlock& block) const {
-  Part part(std::nullopt, block);
-  part.offset.push_back(0);
-  part.count.push_back(this->field(field.axes.back()).scale->least);
-  return elements<std::uint8_t>(field.path, ElementType::uint8, part.offset, part.count);
+  ArrayBox box(std::nullopt, block);
+  box.offset.push_back(0);
+  box.count.push_back(this->field(field.axes.back()).scale->least);
+  return elements<std::uint8_t>(field.path, ElementType::uint8, box.offset, box.count);
 }
 
 std::vector<std::uint8_t> ResultsReader::bytes(const Field& field,
-                                               const std::vector<std::int64_t>& place) const {
-  std::vector<std::uint64_t> offset(place.begin(), place.end()), count(place.size(), 1);
+                                               const std::vector<std::int64_t>& indices) const {
+  std::vector<std::uint64_t> offset(indices.begin(), indices.end()), count(indices.size(), 1);
   offset.push_back(0);
   count.push_back(this->field(field.axes.back()).scale->least);
   return elements<std::uint8_t>(field.path, ElementType::uint8, offset, count);
@@ -275,12 +275,12 @@ std::uint64_t ResultsReader::length(const std::string& scale) const {
 }
 
 bool ResultsReader::has_abstraction() const {
-  return !parts_->tables.empty();
+  return !metadata_->tables.empty();
 }
 
 Abstraction ResultsReader::abstraction() const {
   REQUIRES(has_abstraction());
-  Abstraction abstraction{.grid = grid_, .inputs = inputs_, .tables = parts_->tables};
+  Abstraction abstraction{.grid = grid_, .inputs = inputs_, .tables = metadata_->tables};
   for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
     TransitionTable& table = abstraction.tables[i];
     const auto entries = static_cast<std::size_t>(lay_out(table, i, grid_, inputs_));
@@ -295,7 +295,7 @@ Abstraction ResultsReader::abstraction() const {
     const auto last =
         elements<std::int32_t>("/abstraction/" + grid_[i].name + "/last", ElementType::int32, origin, shape);
     for (std::size_t e = 0; e < entries; ++e) {
-      if (first[e] > last[e]) throw ResultsError("an empty range of indices", file_->place(first_path));
+      if (first[e] > last[e]) throw ResultsError("an empty range of indices", file_->location(first_path));
       table.entries.push_back({first[e], last[e]});
     }
   }

@@ -17,21 +17,21 @@
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
 #include "reach/abstraction.hpp"
-#include "results/results_parts.hpp"
+#include "results/results_metadata.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
 
 class ResultsFile;
-struct ResultsParts;
+struct ResultsMetadata;
 
 /// A results file opened for reading, together with its spec.
 ///
-/// 1. The constructor reads everything but the arrays over cells: in a child process first, because damaged
+/// 1. The constructor reads everything but the arrays of cells: in a child process first, because damaged
 ///    files can crash the HDF5 library (see try_in_child()). It checks that the file fits its spec: digest,
 ///    grid points, partitions, shapes and types. Values of attributes are only read; whether they are right
 ///    is for a verification.
-/// 2. Arrays over cells are read on demand, for a block or a stretch of cells; only the chunks concerned are
+/// 2. Arrays of cells are read on demand, for a block or a run of cells; only the chunks concerned are
 ///    unpacked. Numbers are checked to be ones that the contract knows.
 ///
 /// Every member function throws ResultsError naming the file and the object where something is missing,
@@ -41,7 +41,7 @@ class ResultsReader : public FieldSource {
  public:
   /// Infinite delays, triggers and collision times, whatever type they are stored as.
 
-  /// @param max_memory bytes that reading may take; arrays are read in parts, of which a few are kept
+  /// @param max_memory bytes that reading may take; arrays are read in blocks, of which a few are kept
   /// @throws IoError if the file is not there or cannot be read; ResultsError if it is no results file of a
   ///   version that this program reads, or is damaged, or its spec is none; LimitError
   explicit ResultsReader(const std::string& path, std::optional<std::uint64_t> max_memory = std::nullopt);
@@ -72,12 +72,12 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::size_t leading_length(const Field& field) const;
   /// Names of the entries along the leading axis. @pre there is one
   [[nodiscard]] const std::vector<std::string>& leading_names(const Field& field) const;
-  /// The number of steps of a field over partitions that says `at least`, since `max_delay` ended the
+  /// The number of steps of a field by partition that says `at least`, since `max_delay` ended the
   /// iteration; none if F is known. @pre partition < partitions().size()
   [[nodiscard]] std::optional<std::int64_t> lower_bound(const Field& field, std::size_t partition) const;
   /// Place along the axis before those of the cells; none where there is no such axis.
   using Leading = std::optional<std::size_t>;
-  /// Integers of a field over cells, kUnbounded where the type's largest value means that there is no end; of
+  /// Integers of a field by cell, kUnbounded where the type's largest value means that there is no end; of
   /// probabilities the bits, see probability_of().
   [[nodiscard]] std::vector<std::int32_t> values(const Field& field, Leading leading,
                                                  const CellBlock& block) const;
@@ -89,9 +89,9 @@ class ResultsReader : public FieldSource {
   /// The values of a field of m actions: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of
   /// byte a / 8.
   [[nodiscard]] std::vector<std::uint8_t> bits(const Field& field, const CellBlock& block) const;
-  /// The bytes along the last axis of a field of them, at a place along all others.
+  /// The bytes along the last axis of a field of them, at the indices along all others.
   [[nodiscard]] std::vector<std::uint8_t> bytes(const Field& field,
-                                                const std::vector<std::int64_t>& place) const;
+                                                const std::vector<std::int64_t>& indices) const;
   /// All bytes of such a field, row-major.
   [[nodiscard]] std::vector<std::uint8_t> bytes(const Field& field) const;
   /// The length of an axis. @pre the file has it
@@ -128,14 +128,14 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] Abstraction abstraction() const;
 
   /// The cells begin, ..., end - 1 by linear index: `read(block)` for each of the blocks that they are,
-  /// joined. Example: results.stretch(0, 1000, [&](const CellBlock& b) { return results.members("/safe", b);
+  /// joined. Example: results.read_run(0, 1000, [&](const CellBlock& b) { return results.members("/safe", b);
   /// })
   template <class Read>
   [[nodiscard]] auto read_run(std::int64_t begin, std::int64_t end, const Read& read) const {
     decltype(read(CellBlock())) all;
     for (const CellBlock& block : blocks_of_run(grid_, begin, end)) {
-      const auto part = read(block);
-      all.insert(all.end(), part.begin(), part.end());
+      const auto block_values = read(block);
+      all.insert(all.end(), block_values.begin(), block_values.end());
     }
     return all;
   }
@@ -150,14 +150,14 @@ class ResultsReader : public FieldSource {
   std::optional<std::uint64_t> max_memory_;
   std::size_t cache_bytes_;
   std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
-  std::unique_ptr<const ResultsParts> parts_;
+  std::unique_ptr<const ResultsMetadata> metadata_;
   std::map<std::string, std::size_t> field_of_path_;
   std::map<std::string, std::vector<std::int64_t>> fixed_points_;  ///< by Field::fixed_points
   UniformGrid grid_;
   InputSpace inputs_;
 };
 
-/// A number for each cell: steps, or a place in a list; -3 to -1 are flags, kUnbounded is
+/// A number for each cell: steps, or a position in a list; -3 to -1 are flags, kUnbounded is
 /// infinity.
 using ReadCells = std::function<std::vector<std::int32_t>(const CellBlock&)>;
 

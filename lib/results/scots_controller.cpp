@@ -56,8 +56,8 @@ class ScotsText {
 
   /// Natural numbers, blanks between; @throws ControllerError
   [[nodiscard]] std::vector<std::int64_t> naturals(std::string_view text) const;
-  [[nodiscard]] std::string place() const { return place(line_number_); }
-  [[nodiscard]] std::string place(std::int64_t line) const;
+  [[nodiscard]] std::string location() const { return location(line_number_); }
+  [[nodiscard]] std::string location(std::int64_t line) const;
 
  private:
   std::string path_;
@@ -70,7 +70,7 @@ ScotsText::ScotsText(const std::string& path) : path_(path), file_(path, std::io
   if (!file_) throw IoError("cannot read the controller: " + std::generic_category().message(errno), path);
 }
 
-std::string ScotsText::place(std::int64_t line) const {
+std::string ScotsText::location(std::int64_t line) const {
   return fmt::format("{}, line {}", path_, line);
 }
 
@@ -81,14 +81,14 @@ std::string_view ScotsText::next(std::string_view wanted) {
     if (!text.empty()) return text;
   }
   if (file_.bad()) throw IoError("cannot read the controller", path_);
-  throw ControllerError(fmt::format("the file ends, expected {}", wanted), place());
+  throw ControllerError(fmt::format("the file ends, expected {}", wanted), location());
 }
 
 void ScotsText::expect(std::string_view expected) {
   const std::string_view found = next(expected);
   if (found != expected) {
     throw ControllerError(fmt::format("found {}, expected {}", quote_text(found), quote_text(expected)),
-                          place());
+                          location());
   }
 }
 
@@ -96,14 +96,14 @@ std::int64_t ScotsText::member(std::string_view name) {
   expect(name);
   const std::vector<std::int64_t> value = naturals(next("a number"));
   if (value.size() != 1)
-    throw ControllerError(fmt::format("expected one number, found {}", value.size()), place());
+    throw ControllerError(fmt::format("expected one number, found {}", value.size()), location());
   return value.front();
 }
 
 std::vector<std::int64_t> ScotsText::begin() {
   const std::string_view text = next("'#BEGIN:'");
   if (text.substr(0, scots::kBegin.size()) != scots::kBegin)
-    throw ControllerError(fmt::format("found {}, expected '#BEGIN:'", quote_text(text)), place());
+    throw ControllerError(fmt::format("found {}, expected '#BEGIN:'", quote_text(text)), location());
   return naturals(text.substr(scots::kBegin.size()));
 }
 
@@ -112,14 +112,14 @@ std::vector<ScotsText::Entry> ScotsText::vector(std::string_view name, std::size
   const std::vector<std::int64_t> size = begin();
   if (size.size() != 1 || size.front() != static_cast<std::int64_t>(count))
     throw ControllerError(
-        fmt::format("found {} of {}, expected {}", fmt::join(size, " "), plain(name), count), place());
+        fmt::format("found {} of {}, expected {}", fmt::join(size, " "), plain(name), count), location());
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string_view text = next("a number");
     Entry entry{.line = line_number_};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), entry.value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(entry.value))
-      throw ControllerError(fmt::format("found {}, expected a number", quote_text(text)), place());
+      throw ControllerError(fmt::format("found {}, expected a number", quote_text(text)), location());
     entries.push_back(entry);
   }
   expect(scots::kEnd);
@@ -137,9 +137,9 @@ std::vector<std::int64_t> ScotsText::naturals(std::string_view text) const {
     }
     std::int64_t number = 0;
     const auto [rest, error] = std::from_chars(at, end, number);
-    const bool is_word = rest == end || kBlanks.find(*rest) != std::string_view::npos;
-    if (error != std::errc() || !is_word || number < 0)
-      throw ControllerError(fmt::format("found {}, expected natural numbers", quote_text(text)), place());
+    const bool is_number = rest == end || kBlanks.find(*rest) != std::string_view::npos;
+    if (error != std::errc() || !is_number || number < 0)
+      throw ControllerError(fmt::format("found {}, expected natural numbers", quote_text(text)), location());
     numbers.push_back(number);
     at = rest;
   }
@@ -199,14 +199,14 @@ class Reader {
     std::string_view line = text_.next("'#MATRIX:DATA'");
     if (line.starts_with(scots::kComment)) line = text_.next("'#MATRIX:DATA'");  // a comment
     if (line != scots::kMatrix)
-      throw ControllerError(fmt::format("found '{}', expected '#MATRIX:DATA'", line), text_.place());
+      throw ControllerError(fmt::format("found '{}', expected '#MATRIX:DATA'", line), text_.location());
     const std::vector<std::int64_t> size = text_.begin();
     has_one_input_ = size.size() == 2 && size.back() == 1;
     if (size != std::vector{size_of(states_), has_one_input_ ? 1 : size_of(inputs_)}) {
       throw ControllerError(
           fmt::format("found a matrix of {} states and inputs, expected {} {} (or {} 1: one input a state)",
                       fmt::join(size, " "), size_of(states_), size_of(inputs_), size_of(states_)),
-          text_.place());
+          text_.location());
     }
   }
 
@@ -260,7 +260,7 @@ class Reader {
     if (dimensions != static_cast<std::int64_t>(axes.size())) {
       throw ControllerError(
           fmt::format("{}: found {} dimensions, expected {}", section, dimensions, axes.size()),
-          text_.place());
+          text_.location());
     }
     check_entries(section, scots::kSteps, axes, &Axis::step);
     check_entries(section, scots::kFirsts, axes, &Axis::first);
@@ -278,7 +278,7 @@ class Reader {
       if (same_point(found[i].value, wanted, step == 0 ? std::nullopt : std::optional(step))) continue;
       throw ControllerError(fmt::format("{}: {} of {} is {}, expected {}", section, plain(name), axes[i].name,
                                         found[i].value, wanted),
-                            text_.place(found[i].line));
+                            text_.location(found[i].line));
     }
   }
 
@@ -287,7 +287,7 @@ class Reader {
       if (number < count) return;
       throw ControllerError(
           fmt::format("WINNINGDOMAIN: found {} {}, expected one below {}", what, number, count),
-          text_.place());
+          text_.location());
     };
     check("state", row.front(), static_cast<std::int64_t>(seen.size()));
     for (std::size_t j = 1; j < row.size(); ++j) check("input", row[j], size_of(inputs_));
@@ -295,11 +295,11 @@ class Reader {
       throw ControllerError(fmt::format("WINNINGDOMAIN: found {} inputs of state {}, expected one, as the "
                                         "matrix has one column",
                                         row.size() - 1, row.front()),
-                            text_.place());
+                            text_.location());
     }
     const auto state = static_cast<std::size_t>(row.front());
     if (seen[state])
-      throw ControllerError(fmt::format("WINNINGDOMAIN: state {} is listed twice", state), text_.place());
+      throw ControllerError(fmt::format("WINNINGDOMAIN: state {} is listed twice", state), text_.location());
     seen[state] = true;
   }
 

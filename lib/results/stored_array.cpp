@@ -34,7 +34,7 @@ std::vector<hsize_t> sizes(const Shape& shape) {
   return {shape.begin(), shape.end()};
 }
 
-/// Calls `visit(tuple)` for first <= tuple <= last, the last place fastest.
+/// Calls `visit(tuple)` for first <= tuple <= last, the last dimension fastest.
 template <class Visit>
 void for_each_tuple(const Shape& first, const Shape& last, const Visit& visit) {
   Shape tuple = first;
@@ -50,7 +50,7 @@ void for_each_tuple(const Shape& first, const Shape& last, const Visit& visit) {
   }
 }
 
-/// Copies the part that a chunk and a block have in common.
+/// Copies the elements that a chunk and a block have in common.
 class Overlap {
  public:
   Overlap(const Shape& chunk_begin, const Shape& chunk, const Shape& block_begin, const Shape& block)
@@ -66,13 +66,13 @@ class Overlap {
     Shape last = last_;
     last.back() = first_.back();
     for_each_tuple(first_, last, [&](const Shape& at) {
-      std::memcpy(to + place(at, block_begin_, block_) * element,
-                  from + place(at, chunk_begin_, chunk_) * element, run);
+      std::memcpy(to + linear_index(at, block_begin_, block_) * element,
+                  from + linear_index(at, chunk_begin_, chunk_) * element, run);
     });
   }
 
  private:
-  static std::uint64_t place(const Shape& at, const Shape& begin, const Shape& lengths) {
+  static std::uint64_t linear_index(const Shape& at, const Shape& begin, const Shape& lengths) {
     std::uint64_t result = 0;
     for (std::size_t i = 0; i < at.size(); ++i) result = result * lengths[i] + (at[i] - begin[i]);
     return result;
@@ -107,19 +107,19 @@ const ChunkCache::Bytes& ChunkCache::keep(const Key& key, Bytes bytes) {
   return entries_.insert_or_assign(key, Entry{std::move(bytes), ++clock_}).first->second.bytes;
 }
 
-StoredArray::StoredArray(hdf5::Handle dataset, std::uint64_t file_bytes, std::string place)
-    : dataset_(std::move(dataset)), file_bytes_(file_bytes), place_(std::move(place)) {
+StoredArray::StoredArray(hdf5::Handle dataset, std::uint64_t file_bytes, std::string location)
+    : dataset_(std::move(dataset)), file_bytes_(file_bytes), location_(std::move(location)) {
   read_layout();
   read_type();
 }
 
 void StoredArray::fail(const std::string& what) const {
-  throw ResultsError(what, place_);
+  throw ResultsError(what, location_);
 }
 
 void StoredArray::read_type() {
   const hdf5::Handle stored(H5Dget_type(dataset_.get()), H5Tclose, "read a type");
-  // Strings lie elsewhere; the array has the length and the place of each, as long as a file has places.
+  // Strings lie elsewhere; the array has the length and the location of each, whatever it is.
   constexpr std::uint64_t kStringBytes = 16;
   element_bytes_ = hdf5::holds_long_strings(stored) ? kStringBytes : H5Tget_size(stored.get());
   for (const ElementType type :
@@ -157,12 +157,12 @@ void StoredArray::read_filters(const hdf5::Handle& properties) {
     std::size_t values = 0;
     const H5Z_filter_t filter = H5Pget_filter2(properties.get(), static_cast<unsigned>(i), &flags, &values,
                                                nullptr, 0, nullptr, &config);
-    int& place = filter == H5Z_FILTER_SHUFFLE ? shuffle_ : deflate_;
-    if ((filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE) || place >= 0 ||
+    int& filter_position = filter == H5Z_FILTER_SHUFFLE ? shuffle_ : deflate_;
+    if ((filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE) || filter_position >= 0 ||
         (filter == H5Z_FILTER_SHUFFLE && deflate_ >= 0)) {
       fail("packed in a way that results are not: expected the filters shuffle and deflate");
     }
-    place = i;
+    filter_position = i;
   }
 }
 
@@ -175,7 +175,7 @@ std::uint64_t StoredArray::chunk_count() const {
 void StoredArray::check_storage() const {
   const std::uint64_t bytes = product(shape_, element_bytes_);
   if (chunk_.empty()) {
-    // Compact ones have no place of their own; the library has read them with the header.
+    // Compact ones have no location; the library has read them with the header.
     const haddr_t begin = H5Dget_offset(dataset_.get());
     const bool is_here = H5Dget_storage_size(dataset_.get()) == bytes &&
                          (begin == HADDR_UNDEF || (begin <= file_bytes_ && bytes <= file_bytes_ - begin));
@@ -194,15 +194,15 @@ void StoredArray::check_storage() const {
 ChunkCache::Bytes StoredArray::unpacked(const Shape& begin) const {
   const auto size = static_cast<std::size_t>(element_bytes_);
   const auto bytes = static_cast<std::size_t>(product(chunk_, size));
-  const std::vector<hsize_t> place = sizes(begin);
+  const std::vector<hsize_t> offset = sizes(begin);
   hsize_t stored = 0;
-  if (H5Dget_chunk_storage_size(dataset_.get(), place.data(), &stored) < 0 || stored == 0 ||
+  if (H5Dget_chunk_storage_size(dataset_.get(), offset.data(), &stored) < 0 || stored == 0 ||
       stored > bytes + bytes / 64 + 1024) {
     fail("cannot read the numbers: damaged");
   }
   ChunkCache::Bytes packed(stored);
   std::uint32_t skipped = 0;
-  if (H5Dread_chunk(dataset_.get(), H5P_DEFAULT, place.data(), &skipped, packed.data()) < 0)
+  if (H5Dread_chunk(dataset_.get(), H5P_DEFAULT, offset.data(), &skipped, packed.data()) < 0)
     fail("cannot read the numbers: damaged");
   const auto is_used = [skipped](int filter) { return filter >= 0 && (skipped >> filter & 1U) == 0; };
   const bool shuffled = is_used(shuffle_) && size > 1;
@@ -224,7 +224,7 @@ const ChunkCache::Bytes& StoredArray::chunk(const Shape& number, ChunkCache& cac
   return known != nullptr ? *known : cache.keep(key, unpacked(begin));
 }
 
-void StoredArray::read_in_one_piece(const Shape& offset, const Shape& count, void* out) const {
+void StoredArray::read_contiguous(const Shape& offset, const Shape& count, void* out) const {
   const hdf5::Handle stored(H5Dget_space(dataset_.get()), H5Sclose, "read a shape");
   const std::vector<hsize_t> start = sizes(offset), lengths = sizes(count);
   const hdf5::Handle wanted = hdf5::create_space(lengths);
@@ -241,7 +241,7 @@ void StoredArray::read_in_one_piece(const Shape& offset, const Shape& count, voi
 void StoredArray::read(const Shape& offset, const Shape& count, void* out, ChunkCache& cache) const {
   REQUIRES(type_ && is_inside(offset, count, shape_));
   if (product(count) == 0) return;
-  if (chunk_.empty()) return read_in_one_piece(offset, count, out);
+  if (chunk_.empty()) return read_contiguous(offset, count, out);
   Shape first, last;
   for (std::size_t i = 0; i < shape_.size(); ++i) {
     first.push_back(offset[i] / chunk_[i]);

@@ -13,7 +13,7 @@
 
 namespace coordreq {
 
-/// Unpacked chunks of all arrays of a file, the ones that were used last: single cells are asked for in any
+/// Unpacked chunks of all arrays of a file, the ones that were used last: single cells are read in any
 /// order.
 class ChunkCache {
  public:
@@ -38,11 +38,11 @@ class ChunkCache {
   std::uint64_t clock_ = 0;
 };
 
-/// A dataset in a file that nobody vouches for. What it says about itself is checked before
+/// A dataset in a file that is not trusted. What it says about itself is checked before
 /// anything is read or made room for:
 ///
 /// 1. Its elements lie in the file: no external files, no virtual datasets. So many bytes as the shape needs
-///    are there: in one piece, or as chunks of at most kMostChunkBytes, every one of them.
+///    are there: contiguous, or as chunks of at most kMostChunkBytes, every one of them.
 /// 2. Filters are none, or those that we write: `shuffle`, `deflate`. They are undone here and not by the
 ///    library, which makes its buffers as large as what a chunk unpacks to.
 class StoredArray {
@@ -50,12 +50,12 @@ class StoredArray {
   static constexpr std::uint64_t kMostChunkBytes = std::uint64_t{4} << 20U;
 
   /// @param file_bytes length of the file
-  /// @throws hdf5::Failure; ResultsError naming `place` and what is wrong with it
-  StoredArray(hdf5::Handle dataset, std::uint64_t file_bytes, std::string place);
+  /// @throws hdf5::Failure; ResultsError naming `location` and what is wrong with it
+  StoredArray(hdf5::Handle dataset, std::uint64_t file_bytes, std::string location);
 
   /// None if it is not one that we write: strings, and axes that have no coordinates.
   [[nodiscard]] std::optional<ElementType> type() const { return type_; }
-  [[nodiscard]] bool is_in_one_piece() const { return chunk_.empty(); }
+  [[nodiscard]] bool is_contiguous() const { return chunk_.empty(); }
   [[nodiscard]] const hdf5::Handle& dataset() const { return dataset_; }
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
   [[nodiscard]] std::uint64_t elements() const { return elements_; }
@@ -78,18 +78,18 @@ class StoredArray {
   [[nodiscard]] const ChunkCache::Bytes& chunk(const std::vector<std::uint64_t>& number,
                                                ChunkCache& cache) const;
   [[nodiscard]] ChunkCache::Bytes unpacked(const std::vector<std::uint64_t>& begin) const;
-  void read_in_one_piece(const std::vector<std::uint64_t>& offset, const std::vector<std::uint64_t>& count,
-                         void* out) const;
+  void read_contiguous(const std::vector<std::uint64_t>& offset, const std::vector<std::uint64_t>& count,
+                       void* out) const;
 
   hdf5::Handle dataset_;
   std::uint64_t file_bytes_;
-  std::string place_;
+  std::string location_;
   std::optional<ElementType> type_;
   std::uint64_t element_bytes_ = 1;
   std::vector<std::uint64_t> shape_;
   std::uint64_t elements_ = 1;
-  std::vector<std::uint64_t> chunk_;  // its shape; empty if in one piece
-  int shuffle_ = -1;                  // place among the filters
+  std::vector<std::uint64_t> chunk_;  // its shape; empty if contiguous
+  int shuffle_ = -1;                  // position among the filters
   int deflate_ = -1;
 };
 

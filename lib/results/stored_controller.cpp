@@ -44,7 +44,7 @@ class StoredController {
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& object) const {
-    throw ResultsError(what, file_.place(object));
+    throw ResultsError(what, file_.location(object));
   }
 
   static std::vector<Rational> grid_points(const GridSpec& grid) {

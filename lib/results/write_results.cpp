@@ -50,13 +50,13 @@ class AttributeWriter {
   }
   void set(const std::string& /*name*/, const std::vector<FieldFlag>& flags) {
     std::vector<std::int64_t> values;
-    std::string words;
+    std::string text;
     for (const FieldFlag& flag : flags) {
       values.push_back(flag.value == kLargestValue ? largest_value(type_) : flag.value);
-      words += (words.empty() ? "" : " ") + flag.word;
+      text += (text.empty() ? "" : " ") + flag.meaning;
     }
     hdf5::set_attribute(object_, "flag_values", type_, values);
-    hdf5::set_attribute(object_, "flag_meanings", words);
+    hdf5::set_attribute(object_, "flag_meanings", text);
   }
 
   const hdf5::Handle& object_;
@@ -97,7 +97,7 @@ const FieldValues::Entry& entry_of(const Field& field, const FieldValues& values
   return found->second;
 }
 
-/// Elements of a field for each cell, 0 if it is not over all cells. @param shape of the field
+/// Elements of a field for each cell, 0 if it is not by all cells. @param shape of the field
 std::uint64_t elements_of_cell(const Field& field, const ProblemSpec& spec,
                                const std::vector<std::uint64_t>& shape) {
   const std::vector<std::string> cells = cell_axes(spec);
@@ -110,7 +110,7 @@ std::uint64_t elements_of_cell(const Field& field, const ProblemSpec& spec,
 
 class FieldsWriter {
  public:
-  /// @param ranks who knows arrays over cells, if there are several processes; else null
+  /// @param ranks who knows arrays of cells, if there are several processes; else null
   FieldsWriter(const std::string& path, const FieldValues& values, ThreadTeam& team, RankChunks* ranks)
       : file_(path, team, ranks), values_(values), has_ranks_(ranks != nullptr) {}
 
@@ -173,8 +173,8 @@ class FieldsWriter {
                                const FieldValues::Entry* entry) {
     AttributeWriter writer(dataset, type);
     for (const FieldAttribute& attribute : field.attributes) {
-      const bool is_found = attribute.is_found && entry != nullptr;
-      writer.write(attribute.name, is_found ? entry->attributes.at(attribute.name) : attribute.value);
+      const bool is_computed = attribute.is_computed && entry != nullptr;
+      writer.write(attribute.name, is_computed ? entry->attributes.at(attribute.name) : attribute.value);
     }
   }
 
@@ -185,7 +185,8 @@ class FieldsWriter {
 };
 
 /// The work of all ranks but the first, while the first one writes the fields.
-void hand_over(const ProblemSpec& spec, const Fields& fields, const FieldValues& values, RankChunks& ranks) {
+void send_chunks(const ProblemSpec& spec, const Fields& fields, const FieldValues& values,
+                 RankChunks& ranks) {
   std::map<std::string, std::uint64_t> lengths;
   for (const Field& field : fields) {
     if (field.scale) {
@@ -201,7 +202,7 @@ void hand_over(const ProblemSpec& spec, const Fields& fields, const FieldValues&
     const bool is_copied = !entry.equals.empty() && layout.chunked();
     if (!array.is_divided() || is_copied) continue;
     ranks.pack(layout, array);
-    ranks.hand_over();
+    ranks.send_packed();
   }
 }
 
@@ -210,9 +211,9 @@ void hand_over(const ProblemSpec& spec, const Fields& fields, const FieldValues&
 void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
                    ThreadTeam& team, RankChunks* ranks) {
   const Fields fields = result_fields(spec);
-  if (ranks != nullptr && !ranks->is_first()) return hand_over(spec, fields, values, *ranks);
+  if (ranks != nullptr && !ranks->is_first()) return send_chunks(spec, fields, values, *ranks);
   const FileKind kind{
-      .words = "the results", .filetype = std::string(kResultsFiletype), .version = kResultsVersion};
+      .label = "the results", .filetype = std::string(kResultsFiletype), .version = kResultsVersion};
   write_fields(path, kind, header_attributes(spec), spec, fields, values, team, ranks);
 }
 
@@ -220,7 +221,7 @@ void write_fields(const std::string& path, const FileKind& kind,
                   const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
                   const Fields& fields, const FieldValues& values, ThreadTeam& team, RankChunks* ranks) {
   hdf5::expect_memory();
-  write_whole_file(path, kind.words, [&](const std::string& temporary) {
+  write_whole_file(path, kind.label, [&](const std::string& temporary) {
     FieldsWriter(temporary, values, team, ranks).write(kind, attributes, spec, fields);
   });
 }

@@ -18,7 +18,7 @@ namespace coordreq {
 ///
 /// Where `path` is a symbolic link, the file that it points to is replaced and the link stays. Written is
 /// what result_fields() declares for the spec. Memory: about 7 MiB a thread.
-/// @param ranks who knows arrays over cells, if there are several processes, which then call this together;
+/// @param ranks who knows arrays of cells, if there are several processes, which then call this together;
 ///   the first of them writes the file. Null: there is one
 /// @throws std::invalid_argument if a field has no values, or ones of a type that it does not have;
 ///   IoError naming the path if the folder is missing or not writable, the disk is full, or `path` is a
@@ -26,9 +26,9 @@ namespace coordreq {
 void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
                    ThreadTeam& team, RankChunks* ranks = nullptr);
 
-/// A kind of file: what it is in words, for errors, and its first two attributes.
+/// A kind of file: its label, for errors, and its first two attributes.
 struct FileKind {
-  std::string words;
+  std::string label;
   std::string filetype;
   std::array<std::int32_t, 2> version;
 };
@@ -45,7 +45,7 @@ void write_fields(const std::string& path, const FileKind& kind,
 ///   analysis does not fail at its end. Leaves nothing behind.
 void check_writable(const std::string& path);
 
-/// The attributes of a results file itself, but for `version`; what tells of the program is marked as found.
+/// The attributes of a results file itself, but for `version`; what describes the program is marked as found.
 [[nodiscard]] std::vector<FieldAttribute> header_attributes(const ProblemSpec& spec);
 
 }  // namespace coordreq

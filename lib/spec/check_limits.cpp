@@ -19,7 +19,7 @@ mpz_class power_of_two(unsigned exponent) {
 }
 
 /// All digits, or the magnitude if they would fill the line.
-std::string shown(const mpz_class& count) {
+std::string count_text(const mpz_class& count) {
   constexpr std::size_t kMostDigits = 40;
   const std::string digits = count.get_str();
   return digits.size() <= kMostDigits ? digits : fmt::format("about 10^{}", digits.size() - 1);
@@ -28,7 +28,7 @@ std::string shown(const mpz_class& count) {
 void refuse_above(const mpz_class& count, const mpz_class& limit, std::string_view what,
                   const std::string& pointer) {
   if (count <= limit) return;
-  throw LimitError(fmt::format("{} {}, at most {} are possible", shown(count), what, limit.get_str()),
+  throw LimitError(fmt::format("{} {}, at most {} are possible", count_text(count), what, limit.get_str()),
                    pointer);
 }
 

@@ -22,12 +22,12 @@ struct Visit {
 [[noreturn]] void fail_cycle(const std::vector<Visit>& path, std::size_t repeated,
                              const std::vector<std::string>& names, const std::string& kind,
                              const std::vector<std::string>& pointers) {
-  constexpr std::ptrdiff_t kMostShown = 8;
+  constexpr std::ptrdiff_t kMostListed = 8;
   const auto start =
       std::find_if(path.begin(), path.end(), [&](const Visit& visit) { return visit.vertex == repeated; });
   std::string cycle;
   for (auto visit = start; visit != path.end(); ++visit) {
-    if (visit - start == kMostShown) {
+    if (visit - start == kMostListed) {
       cycle += "... -> ";
       break;
     }

@@ -17,8 +17,8 @@ Rational rounded_down(const Rational& q) {
 /// The limits of `stop` are the first and the last grid point, so something is always left.
 Piece line_piece(const GridDimension& dimension, std::int64_t k, const Rational& reach) {
   Piece piece{dimension.point(k) - reach, dimension.point(k) + reach};
-  if (k == 0) piece.lower -= dimension.stretch_below;
-  if (k == dimension.count - 1) piece.upper += dimension.stretch_above;
+  if (k == 0) piece.lower -= dimension.extension_below;
+  if (k == dimension.count - 1) piece.upper += dimension.extension_above;
   if (dimension.below == Outside::stop) piece.lower = std::max(piece.lower, dimension.first);
   if (dimension.above == Outside::stop) {
     piece.upper = std::min(piece.upper, dimension.point(dimension.count - 1));

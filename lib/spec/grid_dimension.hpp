@@ -22,8 +22,8 @@ struct GridDimension {
   Rational upper;
   Rational measurement_error = 0;  ///< how far the true state may be from the measured one
   /// How far beyond its outer face the first and the last cell count as going on (see safe_beyond_limits()).
-  Rational stretch_below = 0;
-  Rational stretch_above = 0;
+  Rational extension_below = 0;
+  Rational extension_above = 0;
 
   /// The dimension wraps round: first = lower, count * step = upper - lower.
   [[nodiscard]] bool periodic() const { return below == Outside::periodic; }
@@ -43,7 +43,7 @@ struct Piece {
 
 /// Where the true state can be while cell k is measured: the closed cell (the point of a discrete dimension)
 /// widened by the measurement error on both sides, as one piece. Beyond a `stop` limit there is no state, so
-/// that half of the boundary cell does not count; a stretched boundary cell is as long as it is stretched.
+/// that half of the boundary cell does not count; an extended boundary cell is as long as its extension.
 ///
 /// In a periodic dimension it is cut at the seam into representatives in [lower, upper), in the order along
 /// the cell: at most two pieces, or [lower, upper] if it is as wide as the period. A cell that ends at

@@ -42,14 +42,14 @@ std::vector<InputSpec> held_inputs(const Node& hold, const std::vector<InputSpec
 
 void check_name_is_free(const Json& spec, const std::string& name, const std::string& input,
                         const std::string& pointer) {
-  bool is_taken = false;
+  bool is_used = false;
   for (const char* const list : {"states", "inputs", "disturbances"}) {
     for (const Json& variable : spec.value(list, Json::array()))
-      is_taken = is_taken || variable["name"] == name;
+      is_used = is_used || variable["name"] == name;
   }
   for (const char* const object : {"constants", "definitions", "memory"})
-    is_taken = is_taken || (spec.contains(object) && spec[object].contains(name));
-  if (!is_taken) return;
+    is_used = is_used || (spec.contains(object) && spec[object].contains(name));
+  if (!is_used) return;
   throw SpecError(fmt::format("the name {} is taken, expected it free for the state that keeps {}",
                               quote_text(name), quote_text(input)),
                   pointer);
@@ -105,8 +105,8 @@ class HeldInput {
 };
 
 void add_condition(const std::string& condition, const std::string& agent, Json& silence) {
-  Json& own = silence["actions"][agent];
-  own = own.is_null() ? condition : fmt::format("({}) and {}", own.get<std::string>(), condition);
+  Json& rule = silence["actions"][agent];
+  rule = rule.is_null() ? condition : fmt::format("({}) and {}", rule.get<std::string>(), condition);
 }
 
 void add(const HeldInput& held, const std::string& input, Json& spec) {

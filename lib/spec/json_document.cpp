@@ -38,7 +38,7 @@ class Builder : public nlohmann::json_sax<SortedJson> {
     const bool has_nul = value.find('\0') != string_t::npos;
     add(std::move(value));
     if (has_nul) {
-      throw SpecError("a string may not contain the character U+0000", shown_pointer(last_pointer_));
+      throw SpecError("a string may not contain the character U+0000", pointer_text(last_pointer_));
     }
     return true;
   }
@@ -51,7 +51,7 @@ class Builder : public nlohmann::json_sax<SortedJson> {
 
   bool key(string_t& name) override {
     const Level& level = levels_.back();
-    const std::string where = shown_pointer(level.pointer);
+    const std::string where = pointer_text(level.pointer);
     if (name.size() > kLongestKey) throw SpecError("key longer than 200 bytes: " + quote_text(name), where);
     if (level.value->contains(name)) throw SpecError("repeated key " + quote_text(name), where);
     key_ = name;
@@ -77,11 +77,11 @@ class Builder : public nlohmann::json_sax<SortedJson> {
 
   /// Puts a value where the document is being written.
   bool add(SortedJson value) {
-    place(std::move(value));
+    insert(std::move(value));
     return true;
   }
 
-  SortedJson* place(SortedJson value) {
+  SortedJson* insert(SortedJson value) {
     if (levels_.empty()) {
       last_pointer_.clear();
       root_ = std::move(value);
@@ -101,7 +101,7 @@ class Builder : public nlohmann::json_sax<SortedJson> {
 
   bool open(SortedJson container) {
     ++opened_;
-    SortedJson* const value = place(std::move(container));
+    SortedJson* const value = insert(std::move(container));
     if (levels_.size() == kDeepestNesting) {
       // Not the pointer: that of a deep place would fill a screen.
       json_.fail(fmt::format("nested deeper than {} levels", kDeepestNesting), json_.bracket(opened_));

@@ -14,7 +14,7 @@ namespace coordreq {
 
 /// A parsed JSON text that still knows how its numbers were typed.
 ///
-/// The values hold doubles, which is enough to check types; whoever wants a number asks for its token.
+/// The values hold doubles, which is enough to check types; code that needs a number reads its token.
 /// Immutable after parsing; a node must not outlive its document.
 class JsonDocument {
  public:

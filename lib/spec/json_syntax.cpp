@@ -35,7 +35,7 @@ std::string_view expected_at(const JsonText& json, std::size_t start, JsonLevel 
 }
 
 /// ", did you mean 'true'?" for words of JSON in other letters and of other languages.
-std::string meant_literal(std::string_view token) {
+std::string suggested_literal(std::string_view token) {
   if (token == "None" || token == "nil") return ", did you mean 'null'?";
   if (token == "true" || token == "false" || token == "null") return "";
   return same_letters(token, {"true", "false", "null"});
@@ -83,7 +83,7 @@ void fail_syntax(const JsonText& json, std::size_t read, JsonLevel level) {
       json.fail(fmt::format("expected no comma before '{}', found a trailing one", token), before);
   }
   json.fail(fmt::format("expected {}, found {}{}", expected_at(json, start, level), json.found_at(start),
-                        meant_literal(token)),
+                        suggested_literal(token)),
             start);
 }
 

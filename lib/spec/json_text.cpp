@@ -38,7 +38,7 @@ std::size_t utf8_length(std::string_view text, std::size_t offset) {
   return is_continuation(byte_at(text, offset + 3)) ? 4 : 0;
 }
 
-bool is_word_part(char c) {
+bool is_word_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
          c == '+' || c == '-' || static_cast<unsigned char>(c) >= 0x80U;
 }
@@ -74,13 +74,13 @@ std::size_t token_end(std::string_view text, std::size_t offset) {
   if (offset >= text.size()) return text.size();
   if (text[offset] == '"') return string_end(text, offset);
   const auto* const end =
-      std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(offset), text.end(), is_word_part);
+      std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(offset), text.end(), is_word_character);
   return std::max(offset + 1, static_cast<std::size_t>(end - text.begin()));
 }
 
 }  // namespace
 
-std::string JsonText::place(std::size_t offset) const {
+std::string JsonText::position(std::size_t offset) const {
   const std::string_view before = text.substr(0, offset);
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -91,7 +91,7 @@ std::string JsonText::place(std::size_t offset) const {
 }
 
 std::string JsonText::at(std::size_t offset) const {
-  return fmt::format("{}, {}", source, place(offset));
+  return fmt::format("{}, {}", source, position(offset));
 }
 
 std::string JsonText::found_at(std::size_t offset) const {

@@ -14,7 +14,7 @@ struct JsonText {
   std::string_view source;  ///< file name
 
   /// "line 3, column 5" for the byte at `offset`; both count from 1, columns in code points.
-  [[nodiscard]] std::string place(std::size_t offset) const;
+  [[nodiscard]] std::string position(std::size_t offset) const;
   /// "circle.json, line 3, column 5".
   [[nodiscard]] std::string at(std::size_t offset) const;
 

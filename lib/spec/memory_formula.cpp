@@ -15,10 +15,10 @@ constexpr int kDeepestCalls = 200;
 
 class FormulaReader {
  public:
-  FormulaReader(std::string_view text, std::string_view where) : place_{text, where} {}
+  FormulaReader(std::string_view text, std::string_view where) : source_{text, where} {}
 
   MemoryFormula run() {
-    formula_.whole = part(0, place_.text.size(), 0);
+    formula_.whole = segment(0, source_.text.size(), 0);
     return std::move(formula_);
   }
 
@@ -28,17 +28,17 @@ class FormulaReader {
     std::size_t end;
   };
 
-  FormulaPart part(std::size_t begin, std::size_t end, int depth) {
-    FormulaPart result{blank(place_.text), {}};
+  FormulaSegment segment(std::size_t begin, std::size_t end, int depth) {
+    FormulaSegment result{blank(source_.text), {}};
     std::size_t copied = begin;
     const auto copy_to = [&](std::size_t to) {
-      std::copy(place_.text.begin() + static_cast<std::ptrdiff_t>(copied),
-                place_.text.begin() + static_cast<std::ptrdiff_t>(to),
+      std::copy(source_.text.begin() + static_cast<std::ptrdiff_t>(copied),
+                source_.text.begin() + static_cast<std::ptrdiff_t>(to),
                 result.text.begin() + static_cast<std::ptrdiff_t>(copied));
       copied = to;
     };
     for (std::size_t at = begin; at < end;) {
-      const Token token = read_token(place_.text, at);
+      const Token token = read_token(source_.text, at);
       if (token.offset >= end || token.kind == TokenKind::end) break;
       at = token.offset + token.text.size();
       if (token.kind != TokenKind::name || past_operator_arguments(token.text) == 0) continue;
@@ -60,24 +60,24 @@ class FormulaReader {
   std::string new_name() {
     std::string name;
     do name = "q" + std::to_string(names_++);
-    while (place_.text.find(name) != std::string_view::npos);
+    while (source_.text.find(name) != std::string_view::npos);
     return name;
   }
 
   std::size_t add_call(const Token& token, const std::vector<Range>& arguments, int depth) {
     const std::size_t wanted = past_operator_arguments(token.text);
     if (arguments.size() != wanted) {
-      place_.fail(fmt::format("{} takes {} argument{}, found {}", token.text, wanted, wanted == 1 ? "" : "s",
-                              arguments.size()),
-                  token.offset);
+      source_.fail(fmt::format("{} takes {} argument{}, found {}", token.text, wanted, wanted == 1 ? "" : "s",
+                               arguments.size()),
+                   token.offset);
     }
     if (depth == kDeepestCalls)
-      place_.fail(fmt::format("past operators are nested deeper than {} levels", kDeepestCalls),
-                  token.offset);
+      source_.fail(fmt::format("past operators are nested deeper than {} levels", kDeepestCalls),
+                   token.offset);
     const std::size_t number = formula_.calls.size();
     formula_.calls.push_back({token.text, {}});
     for (const Range& argument : arguments) {
-      FormulaPart inner = part(argument.begin, argument.end, depth + 1);
+      FormulaSegment inner = segment(argument.begin, argument.end, depth + 1);
       formula_.calls[number].arguments.push_back(std::move(inner));
     }
     return number;
@@ -86,13 +86,13 @@ class FormulaReader {
   /// The arguments of a call whose name ends at `at`; none if no list in parentheses follows, which the
   /// parser will say.
   [[nodiscard]] std::vector<Range> arguments_of(std::size_t at, std::size_t end) const {
-    Token token = read_token(place_.text, at);
+    Token token = read_token(source_.text, at);
     if (token.kind != TokenKind::open) return {};
     std::vector<Range> arguments{{token.offset + 1, 0}};
     int depth = 0;
     while (true) {
-      token = read_token(place_.text, token.offset + token.text.size());
-      if (token.kind == TokenKind::end) place_.fail("expected ')', found the end", token.offset);
+      token = read_token(source_.text, token.offset + token.text.size());
+      if (token.kind == TokenKind::end) source_.fail("expected ')', found the end", token.offset);
       if (token.offset >= end) return {};
       if (token.kind == TokenKind::open) ++depth;
       const bool closes = token.kind == TokenKind::close && depth-- == 0;
@@ -110,7 +110,7 @@ class FormulaReader {
     return result;
   }
 
-  Place place_;
+  SourceText source_;
   int names_ = 0;
   MemoryFormula formula_;
 };

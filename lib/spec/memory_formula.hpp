@@ -8,9 +8,10 @@
 
 namespace coordreq {
 
-/// A part of the text of a formula in which calls of past operators are replaced by names that nothing else
-/// has. As long as the formula, blank outside of the part, so that errors name places in the formula.
-struct FormulaPart {
+/// A segment of the text of a formula in which calls of past operators are replaced by names that nothing
+/// else has. As long as the formula, blank outside of the segment, so that errors name positions in the
+/// formula.
+struct FormulaSegment {
   std::string text;
   std::map<std::string, std::size_t, std::less<>> calls;  ///< by name: which of MemoryFormula::calls
   [[nodiscard]] const std::size_t* call(std::string_view name) const {
@@ -23,14 +24,14 @@ struct FormulaPart {
 struct MemoryFormula {
   struct Call {
     std::string_view operation;  ///< "once", ...
-    std::vector<FormulaPart> arguments;
+    std::vector<FormulaSegment> arguments;
   };
-  FormulaPart whole;
+  FormulaSegment whole;
   std::vector<Call> calls;  ///< in the order of the text, an outer one before its inner ones
 };
 
-/// @throws SpecError with the place in `where` for a wrong number of arguments, or too deep nesting. What
-///   else is wrong shows when a part is linked.
+/// @throws SpecError with the position in `where` for a wrong number of arguments, or too deep nesting. What
+///   else is wrong shows when a segment is linked.
 [[nodiscard]] MemoryFormula take_apart_formula(std::string_view text, std::string_view where);
 
 }  // namespace coordreq

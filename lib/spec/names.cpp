@@ -87,10 +87,10 @@ bool asks_for(const Node& root, const Dataset& dataset) {
 
 }  // namespace
 
-std::string_view kind_in_words(NameKind kind) {
-  constexpr std::array<std::string_view, 7> kWords{"state",      "input",  "disturbance", "constant",
+std::string_view kind_name(NameKind kind) {
+  constexpr std::array<std::string_view, 7> kNames{"state",      "input",  "disturbance", "constant",
                                                    "definition", "memory", "table"};
-  return kWords[static_cast<std::size_t>(kind)];
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::set<std::string, std::less<>> dataset_names(const Node& root) {

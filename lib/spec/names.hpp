@@ -18,7 +18,7 @@ namespace coordreq {
 enum class NameKind : std::uint8_t { state, input, disturbance, constant, definition, memory, table };
 
 /// "state", "input", ...
-[[nodiscard]] std::string_view kind_in_words(NameKind kind);
+[[nodiscard]] std::string_view kind_name(NameKind kind);
 
 /// The datasets and groups that results of a spec have at their top, besides those of its states and inputs
 /// (contract, sections 4 and 5). @pre unchecked: the document follows the schema.

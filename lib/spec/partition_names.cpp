@@ -12,11 +12,11 @@ namespace coordreq {
 namespace {
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
+  std::vector<std::string_view> segments;
   for (std::size_t start = 0;;) {
     const std::size_t end = text.find(separator, start);
-    parts.push_back(text.substr(start, end - start));
-    if (end == std::string_view::npos) return parts;
+    segments.push_back(text.substr(start, end - start));
+    if (end == std::string_view::npos) return segments;
     start = end + 1;
   }
 }
@@ -110,9 +110,9 @@ std::optional<PartitionSpec> parse_partition_name(const std::vector<AgentSpec>& 
   AgentClasses classes;
   std::vector<bool> is_named(agents.size(), false);
   std::size_t named = 0;
-  for (const std::string_view part : split(text, '|')) {
+  for (const std::string_view segment : split(text, '|')) {
     classes.emplace_back();
-    for (const std::string_view name : split(part, '+')) {
+    for (const std::string_view name : split(segment, '+')) {
       const auto agent =
           std::find_if(agents.begin(), agents.end(), [&](const AgentSpec& one) { return one.name == name; });
       if (agent == agents.end()) return std::nullopt;

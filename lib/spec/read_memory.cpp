@@ -90,12 +90,12 @@ Program truth_of(const PastOperator& past, bool always) {
   return tape.extract(always ? tape.apply(Operator::logical_not, seen) : seen);
 }
 
-ConditionAxis axis_of(const StateSpec& state, Membership asked) {
-  return {state.grid.count, [dimension = dimension_of(state), asked](std::int64_t k) {
+ConditionAxis axis_of(const StateSpec& state, Membership membership) {
+  return {state.grid.count, [dimension = dimension_of(state), membership](std::int64_t k) {
             ConditionAxis::Ranges ranges;
-            if (asked == Membership::center)
+            if (membership == Membership::center)
               ranges.push_back({.lower = dimension.point(k), .upper = dimension.point(k)});
-            if (asked == Membership::center) return ranges;
+            if (membership == Membership::center) return ranges;
             for (const Piece& piece : pieces(dimension, k))
               ranges.push_back({.lower = piece.lower, .upper = piece.upper});
             return ranges;
@@ -122,11 +122,11 @@ MemoryReader::MemoryReader(const JsonDocument::Node& root) {
       Formula& formula = formulas_[name];
       formula.text = node.text();
       formula.pointer = node.pointer();
-      formula.parts = take_apart_formula(formula.text, formula.pointer);
-      for (const MemoryFormula::Call& call : formula.parts.calls) {
-        Call& own = formula.calls.emplace_back();
-        own.past.kind = kind_of(call.operation);
-        own.always = call.operation == "always";
+      formula.structure = take_apart_formula(formula.text, formula.pointer);
+      for (const MemoryFormula::Call& call : formula.structure.calls) {
+        Call& past_call = formula.calls.emplace_back();
+        past_call.past.kind = kind_of(call.operation);
+        past_call.always = call.operation == "always";
       }
     });
   }
@@ -136,20 +136,20 @@ MemoryReader::MemoryReader(const JsonDocument::Node& root) {
 std::vector<std::string> MemoryReader::mentioned(const std::string& name, const TableLookup& tables) const {
   const Formula& formula = formulas_.at(name);
   std::vector<std::string> names;
-  const auto add = [&](const FormulaPart& part) {
-    for (std::string& mention : mentioned_names(part.text, tables, formula.pointer)) {
-      if (part.call(mention) == nullptr) names.push_back(std::move(mention));
+  const auto add = [&](const FormulaSegment& segment) {
+    for (std::string& mention : mentioned_names(segment.text, tables, formula.pointer)) {
+      if (segment.call(mention) == nullptr) names.push_back(std::move(mention));
     }
   };
-  add(formula.parts.whole);
-  for (const MemoryFormula::Call& call : formula.parts.calls)
+  add(formula.structure.whole);
+  for (const MemoryFormula::Call& call : formula.structure.calls)
     std::for_each(call.arguments.begin(), call.arguments.end(), add);
   return names;
 }
 
-void MemoryReader::look_at(const std::vector<StateSpec>& states, Membership asked) {
+void MemoryReader::look_at(const std::vector<StateSpec>& states, Membership membership) {
   states_ = states;
-  asked_ = asked;
+  membership_ = membership;
   phase_ = Phase::provisional;
   next_slot_ = kProvisional;
 }
@@ -180,33 +180,33 @@ Program MemoryReader::linked(const std::string& name, const Lookup& find, const 
   Formula& formula = formulas_.at(name);
   for (std::size_t i = formula.calls.size(); i-- > 0;)
     link_call(formula, i, find, tables);  // inner ones first
-  formula.truth = link_part(formula, formula.parts.whole, ExpectedType::condition, find, tables);
+  formula.truth = link_segment(formula, formula.structure.whole, ExpectedType::condition, find, tables);
   formula.truth.text = formula.text;
   return formula.truth;
 }
 
-Program MemoryReader::link_part(Formula& formula, const FormulaPart& part, ExpectedType expected,
-                                const Lookup& find, const TableLookup& tables) {
+Program MemoryReader::link_segment(Formula& formula, const FormulaSegment& segment, ExpectedType expected,
+                                   const Lookup& find, const TableLookup& tables) {
   const Lookup lookup = [&](std::string_view name) -> Binding {
-    const std::size_t* const call = part.call(name);
+    const std::size_t* const call = segment.call(name);
     if (call == nullptr) return find(name);
-    const Call& own = formula.calls[*call];
-    return std::make_shared<const Program>(truth_of(own.past, own.always));
+    const Call& past_call = formula.calls[*call];
+    return std::make_shared<const Program>(truth_of(past_call.past, past_call.always));
   };
-  return link(part.text, lookup, tables, expected, formula.pointer);
+  return link(segment.text, lookup, tables, expected, formula.pointer);
 }
 
 void MemoryReader::link_call(Formula& formula, std::size_t number, const Lookup& find,
                              const TableLookup& tables) {
   Call& call = formula.calls[number];
-  const std::vector<FormulaPart>& arguments = formula.parts.calls[number].arguments;
+  const std::vector<FormulaSegment>& arguments = formula.structure.calls[number].arguments;
   if (call.past.is_counted()) call.past.samples = read_samples(formula, arguments.front(), find, tables);
-  const FormulaPart& first = call.past.is_counted() ? arguments.back() : arguments.front();
-  call.past.first = link_part(formula, first, ExpectedType::condition, find, tables);
+  const FormulaSegment& first = call.past.is_counted() ? arguments.back() : arguments.front();
+  call.past.first = link_segment(formula, first, ExpectedType::condition, find, tables);
   if (call.always) call.past.first = negated(call.past.first);
   call.past.second = call.past.first;
   if (call.past.kind == Kind::since)
-    call.past.second = link_part(formula, arguments.back(), ExpectedType::condition, find, tables);
+    call.past.second = link_segment(formula, arguments.back(), ExpectedType::condition, find, tables);
   if (phase_ != Phase::provisional) return;
   call.past.three_valued = can_be_undecided(call.past.first) ||
                            (call.past.kind == Kind::since && can_be_undecided(call.past.second));
@@ -214,14 +214,14 @@ void MemoryReader::link_call(Formula& formula, std::size_t number, const Lookup&
   for (std::size_t k = 0; k < call.kept(); ++k) values_[next_slot_++] = call.past.values();
 }
 
-std::int64_t MemoryReader::read_samples(Formula& formula, const FormulaPart& part, const Lookup& find,
+std::int64_t MemoryReader::read_samples(Formula& formula, const FormulaSegment& segment, const Lookup& find,
                                         const TableLookup& tables) {
   constexpr long kMost = (1L << 31U) - 2;
-  const Program program = link_part(formula, part, ExpectedType::number, find, tables);
+  const Program program = link_segment(formula, segment, ExpectedType::number, find, tables);
   const bool is_constant = program.variables().empty();
   const Rational value = is_constant ? constant_value(program, formula.pointer) : Rational(0);
   if (is_constant && is_integer(value) && value >= 1 && value <= kMost) return floor_to_int(value);
-  std::string text = part.text;
+  std::string text = segment.text;
   text.erase(0, text.find_first_not_of(" \n"));
   text.erase(text.find_last_not_of(" \n") + 1);
   throw SpecError(fmt::format("expected a constant integer from 1 to {} as the number of samples, found {}",
@@ -233,13 +233,14 @@ std::int64_t MemoryReader::read_samples(Formula& formula, const FormulaPart& par
 bool MemoryReader::can_be_undecided(const Program& condition) const {
   const std::vector<std::uint32_t> slots = condition.variables();
   const auto is_point = [&](std::uint32_t slot) {
-    return slot >= states_.size() || asked_ == Membership::center || states_[slot].discrete;
+    return slot >= states_.size() || membership_ == Membership::center || states_[slot].discrete;
   };
   if (std::all_of(slots.begin(), slots.end(), is_point) && is_decided_at_points(condition)) return false;
   Program numbered = condition;  // by place among its variables
   std::vector<ConditionAxis> axes;
   for (const std::uint32_t slot : slots)
-    axes.push_back(slot < states_.size() ? axis_of(states_[slot], asked_) : axis_of_values(values_.at(slot)));
+    axes.push_back(slot < states_.size() ? axis_of(states_[slot], membership_)
+                                         : axis_of_values(values_.at(slot)));
   for (Program::Node& node : numbered.nodes) {
     if (node.op != Operator::variable) continue;
     node.a = static_cast<std::uint32_t>(std::lower_bound(slots.begin(), slots.end(), node.a) - slots.begin());

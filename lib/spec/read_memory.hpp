@@ -30,7 +30,7 @@ class MemoryReader {
   [[nodiscard]] std::vector<std::string> mentioned(const std::string& name, const TableLookup& tables) const;
 
   /// From now on names stand for provisional numbers of variables.
-  void look_at(const std::vector<StateSpec>& states, Membership asked);
+  void look_at(const std::vector<StateSpec>& states, Membership membership);
   /// From now on names stand for final numbers of variables. @pre all formulas have been linked since
   /// look_at()
   void settle();
@@ -58,24 +58,24 @@ class MemoryReader {
   struct Formula {
     std::string text;
     std::string pointer;
-    MemoryFormula parts;
+    MemoryFormula structure;
     std::vector<Call> calls;
     Program truth;
   };
 
-  [[nodiscard]] Program link_part(Formula& formula, const FormulaPart& part, ExpectedType expected,
-                                  const Lookup& find, const TableLookup& tables);
+  [[nodiscard]] Program link_segment(Formula& formula, const FormulaSegment& segment, ExpectedType expected,
+                                     const Lookup& find, const TableLookup& tables);
   /// This is the phase, and all formulas have been linked.
   [[nodiscard]] bool are_linked(Phase phase) const;
   void link_call(Formula& formula, std::size_t number, const Lookup& find, const TableLookup& tables);
-  [[nodiscard]] std::int64_t read_samples(Formula& formula, const FormulaPart& part, const Lookup& find,
+  [[nodiscard]] std::int64_t read_samples(Formula& formula, const FormulaSegment& segment, const Lookup& find,
                                           const TableLookup& tables);
   [[nodiscard]] bool can_be_undecided(const Program& condition) const;
 
   std::vector<std::string> names_;
   std::map<std::string, Formula> formulas_;
   std::vector<StateSpec> states_;
-  Membership asked_ = Membership::inner;
+  Membership membership_ = Membership::inner;
   Phase phase_ = Phase::names;
   std::uint32_t next_slot_ = 0;                   ///< of the provisional ones
   std::map<std::uint32_t, std::int64_t> values_;  ///< [provisional slot] how many there are

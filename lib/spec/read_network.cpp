@@ -141,7 +141,7 @@ std::string mode_name(const LossAutomaton& losses, std::size_t mode, NetworkKind
   return losses.is_up(mode) ? "up" : "down";
 }
 
-/// Everyone is connected or nobody is, in turns that the network's kind allows.
+/// All agents are connected or none is, in turns that the network's kind allows.
 void unfold_losses(const Scope& scope, const Node& object, const std::vector<AgentSpec>& agents,
                    const CoordinationSpec& coordination, NetworkSpec& network) {
   std::optional<LossAutomaton> losses =

@@ -30,9 +30,9 @@ std::optional<std::int32_t> read_partition(const Node& object, const std::vector
   const std::optional<PartitionSpec> named = parse_partition_name(agents, node.text());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < partitions.size(); ++i) {
-    const bool is_meant =
+    const bool is_match =
         partitions[i].name == node.text() || (named && partitions[i].canonical == named->canonical);
-    if (is_meant) return static_cast<std::int32_t>(i);
+    if (is_match) return static_cast<std::int32_t>(i);
     names.push_back(partitions[i].name);
   }
   const std::string expected = coordination.all_partitions ? "the canonical name of a partition"
@@ -87,31 +87,31 @@ std::string read_kind(const Scope& scope, const Node& object, const Rational& pe
                       RequirementSpec& requirement) {
   std::string key;
   for (const RequirementTraits& kind : requirement_kinds()) {
-    for (const std::string& own : {kind.key, kind.key + "_time"}) {
-      if (!object.has(own)) continue;
-      key = own;
+    for (const std::string& name : {kind.key, kind.key + "_time"}) {
+      if (!object.has(name)) continue;
+      key = name;
       requirement.kind = kind.kind;
       if (kind.kind == RequirementKind::invariant || kind.is_probability) continue;
       const StepRounding rounding = kind.is_upper_limit ? StepRounding::down : StepRounding::up;
-      requirement.steps = own == kind.key ? read_integer(object[own])
-                                          : read_steps_of_time(scope, object[own], period, rounding);
+      requirement.steps = name == kind.key ? read_integer(object[name])
+                                           : read_steps_of_time(scope, object[name], period, rounding);
     }
   }
   return key;
 }
 
 /// Only then is the delay another one.
-void check_limited_sight(const Node& asked, const std::string& key, std::size_t states,
+void check_limited_sight(const Node& node, const std::string& key, std::size_t states,
                          const std::vector<AgentSpec>& agents) {
   const auto is_limited = [&](const AgentSpec& agent) { return agent.sees && agent.sees->size() < states; };
   if (std::any_of(agents.begin(), agents.end(), is_limited)) return;
   throw SpecError(
       fmt::format("'{}' is for a spec in which some agent does not see all states, by 'sees'", key),
-      asked.pointer());
+      node.pointer());
 }
 
-/// An analysis that stops before the steps asked for could not tell whether the requirement holds.
-void check_decidable(const Node& asked, const RequirementSpec& requirement,
+/// An analysis that stops before the requested steps could not tell whether the requirement holds.
+void check_decidable(const Node& node, const RequirementSpec& requirement,
                      const CoordinationSpec& coordination) {
   if (!requirement.is_of_partition() || !coordination.max_delay ||
       requirement.steps <= *coordination.max_delay) {
@@ -120,7 +120,7 @@ void check_decidable(const Node& asked, const RequirementSpec& requirement,
   throw SpecError(
       fmt::format("expected at most 'max_delay', {} step{}, where the analysis stops, found {} steps",
                   *coordination.max_delay, *coordination.max_delay == 1 ? "" : "s", requirement.steps),
-      asked.pointer());
+      node.pointer());
 }
 
 RequirementSpec read_requirement(const Scope& scope, const Node& root, const Node& object,
@@ -128,7 +128,7 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
                                  const std::optional<RiskSpec>& risk, const Rational& period) {
   RequirementSpec requirement;
   requirement.name = object["name"].text();
-  requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
+  requirement.where = scope.expression(object["where"], ExpectedType::condition, Dependence::states);
   const std::string key = read_kind(scope, object, period, requirement);
   const RequirementTraits& kind = traits(requirement.kind);
   if (kind.needs == "sees") {

@@ -28,7 +28,7 @@ std::vector<std::optional<Program>> read_rules(const Scope& scope, const Node& o
                       object.pointer());
     }
     rules[static_cast<std::size_t>(found - names.begin())] =
-        scope.expression(object[key], ExpectedType::condition, Over::states_and_inputs);
+        scope.expression(object[key], ExpectedType::condition, Dependence::states_and_inputs);
   }
   return rules;
 }

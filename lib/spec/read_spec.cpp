@@ -36,7 +36,7 @@ void check_format(const Node& root) {
 void check_schema(const JsonDocument& document) {
   ErrorList errors;
   for (const SchemaViolation& violation : find_spec_violations(document.value(), ErrorList::kMost))
-    errors.attempt([&] { throw SpecError(violation.what, shown_pointer(violation.pointer)); });
+    errors.attempt([&] { throw SpecError(violation.what, pointer_text(violation.pointer)); });
   errors.raise();
 }
 
@@ -47,19 +47,19 @@ char lower_case(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-bool contains_word(std::string text, std::string_view word) {
+bool contains_word(std::string text, std::string_view term) {
   std::transform(text.begin(), text.end(), text.begin(), lower_case);
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
+  for (std::size_t at = text.find(term); at != std::string::npos; at = text.find(term, at + 1)) {
+    const std::size_t end = at + term.size();
     if ((at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end]))) return true;
   }
   return false;
 }
 
 /// @pre unchecked: the schema knows the word
-GoalThen then_of(const std::string& word) {
-  for (const GoalThen then : {GoalThen::over, GoalThen::stay, GoalThen::come_back}) {
-    if (word == goal_then_name(then)) return then;
+GoalThen then_of(const std::string& term) {
+  for (const GoalThen then : {GoalThen::dependence, GoalThen::stay, GoalThen::come_back}) {
+    if (term == goal_then_name(then)) return then;
   }
   return GoalThen::safe;
 }
@@ -67,12 +67,12 @@ GoalThen then_of(const std::string& word) {
 /// A condition alone, or with what comes after arrival.
 void read_goal(const Scope& scope, const Node& goal, ProblemSpec& spec) {
   const bool has_then = goal.is_object();
-  spec.goal = scope.expression(has_then ? goal["where"] : goal, ExpectedType::condition, Over::states);
+  spec.goal = scope.expression(has_then ? goal["where"] : goal, ExpectedType::condition, Dependence::states);
   if (has_then) spec.goal_then = then_of(goal["then"].text());
 }
 
 /// All parts but the first few; a part that rests on another one is only read if that one is right.
-void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
+void read_sections(const Scope& scope, const Node& root, ProblemSpec& spec) {
   ErrorList errors;
   errors.attempt([&] { spec.states = read_states(scope, root); });
   const bool has_inputs = errors.attempt([&] { spec.inputs = read_inputs(scope, root); });
@@ -82,7 +82,8 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   Rational period;
   const bool has_period = errors.attempt([&] { period = read_period(scope, root); });
   errors.attempt([&] { spec.dynamics = read_dynamics(scope, root, period, spec.states); });
-  errors.attempt([&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states); });
+  errors.attempt(
+      [&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Dependence::states); });
   errors.attempt([&] {
     if (root.has("goal")) read_goal(scope, root["goal"], spec);
   });
@@ -188,7 +189,7 @@ void check_new_name(const Node& name, const std::vector<std::string>& known, con
 
 std::string goal_then_name(GoalThen then) {
   switch (then) {
-    case GoalThen::over:
+    case GoalThen::dependence:
       return "over";
     case GoalThen::stay:
       return "stay";
@@ -214,7 +215,7 @@ ProblemSpec read_spec(std::string text, std::string_view source) {
   spec.name = root["name"].text();
   spec.description = root.text_or("description", "");
   spec.output = read_output(root);
-  read_parts(scope, root, spec);
+  read_sections(scope, root, spec);
   if (memory.names().empty()) {
     check_silence(spec);
     return spec;

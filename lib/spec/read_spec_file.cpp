@@ -14,7 +14,7 @@
 #include "base/error.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/read_tables.hpp"
-#include "spec/spec_place.hpp"
+#include "spec/spec_location.hpp"
 
 namespace coordreq {
 namespace {

@@ -73,7 +73,7 @@ void check_state_names(const Node& object, const std::string& kind, const std::v
 Program read_equation(const Scope& scope, const Node& equations, const std::string& state) {
   if (!equations.has(state))
     throw SpecError("missing equation for the state " + quote_text(state), equations.pointer());
-  return scope.expression(equations[state], ExpectedType::number, Over::everything);
+  return scope.expression(equations[state], ExpectedType::number, Dependence::everything);
 }
 
 /// The state keeps its value between the samples; the text is that of its update.
@@ -141,7 +141,7 @@ UpdateSpec read_update(const Scope& scope, const Node& node, const StateSpec& st
         fmt::format("{} jumps at samples, expected another 'outside' than 'stop'", quote_text(state.name)),
         node.pointer());
   }
-  UpdateSpec update{scope.expression(node, ExpectedType::number, Over::states_and_inputs)};
+  UpdateSpec update{scope.expression(node, ExpectedType::number, Dependence::states_and_inputs)};
   if (const auto box = box_read_as_number(scope, update.value, states)) {
     throw SpecError(
         fmt::format("expected discrete states and inputs outside of the conditions of 'if', found "
@@ -173,7 +173,7 @@ std::vector<AgentSpec> read_agents(const Scope& scope, const Node& root,
     }
     std::sort(agent.inputs.begin(), agent.inputs.end());
     if (object.has("prefer")) {
-      agent.prefer = scope.expression(object["prefer"], ExpectedType::number, Over::states_and_inputs);
+      agent.prefer = scope.expression(object["prefer"], ExpectedType::number, Dependence::states_and_inputs);
     }
     if (object.has("sees")) agent.sees = read_sees(object, state_names(root));
     agents.push_back(std::move(agent));
@@ -246,7 +246,8 @@ ControllerSpec read_controller(const Scope& scope, const Node& root) {
   const Node object = root["controller"];
   if (object.text_or("synthesis", "maximal") == "given") controller.synthesis = Synthesis::given;
   if (object.has("allow")) {
-    controller.allow = scope.expression(object["allow"], ExpectedType::condition, Over::states_and_inputs);
+    controller.allow =
+        scope.expression(object["allow"], ExpectedType::condition, Dependence::states_and_inputs);
   }
   if (object.has("file")) controller.file = object["file"].text();
   return controller;

@@ -17,7 +17,7 @@ struct RequirementTraits {
   std::string value;    ///< what states are judged by: "delay", "arrival"
   bool is_upper_limit;  ///< at most so many steps; else at least
   // In words; {steps} stands for the steps, {partition} for the name of the partition, {risk} for a risk.
-  std::string claim;    ///< what is asked of each cell: "delay of {partition} at least {steps}"
+  std::string claim;    ///< what is required of each cell: "delay of {partition} at least {steps}"
   std::string failing;  ///< what is the matter with one: "has a delay of {steps}"
 
   bool is_probability = false;  ///< instead of steps

@@ -80,17 +80,17 @@ bool value_matches(const SortedJson& schema, const SortedJson& value) {
 }
 
 /// 'text' for a string, else JSON.
-std::string shown_scalar(const SortedJson& value) {
+std::string scalar_text(const SortedJson& value) {
   return value.is_string() ? quote_text(value.get_ref<const std::string&>()) : value.dump();
 }
 
-std::string shown(const SortedJson& value) {
+std::string value_text(const SortedJson& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return value.empty() ? "an empty list" : fmt::format("a list of {}", value.size());
-  return shown_scalar(value);
+  return scalar_text(value);
 }
 
-std::string type_in_words(const std::string& type) {
+std::string type_text(const std::string& type) {
   if (type == "boolean") return "true or false";
   if (type == "null") return type;
   if (type == "array") return "a list";
@@ -107,8 +107,8 @@ std::vector<std::string> texts(const SortedJson& list) {
 std::string wanted(const SortedJson& schema) {
   if (schema.contains("title")) return schema["title"].get<std::string>();
   if (schema.contains("enum")) return quote_list(texts(schema["enum"]), "or");
-  if (schema.contains("const")) return shown_scalar(schema["const"]);
-  return type_in_words(schema["type"].get<std::string>());
+  if (schema.contains("const")) return scalar_text(schema["const"]);
+  return type_text(schema["type"].get<std::string>());
 }
 
 std::vector<std::string> keys_of(const SortedJson& object) {
@@ -146,16 +146,16 @@ class Walk {
   }
 
   void mismatch(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
-    add(fmt::format("expected {}, found {}", wanted(schema), shown(value)), pointer);
+    add(fmt::format("expected {}, found {}", wanted(schema), value_text(value)), pointer);
   }
 
-  /// The alternative of the value's own type is the one the author meant.
+  /// The alternative of the value's own type is the one the author intended.
   void alternatives(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     for (const SortedJson& branch : schema["anyOf"]) {
       const SortedJson& alternative = resolve(branch);
-      const bool is_meant =
+      const bool is_match =
           alternative.contains("type") ? type_matches(alternative, value) : value_matches(alternative, value);
-      if (is_meant) return this->value(alternative, value, pointer);
+      if (is_match) return this->value(alternative, value, pointer);
     }
     mismatch(schema, value, pointer);
   }
@@ -167,7 +167,7 @@ class Walk {
       this->value(items.is_array() ? items[i] : items, value[i], pointer + "/" + std::to_string(i));
   }
 
-  /// Where a key is not known, the one that it was meant to be is missing: that is not said as well.
+  /// Where a key is not known, the intended one is missing: that is not reported as well.
   void object(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     const std::size_t before = violations.size();
     unknown_keys(schema, value, pointer);
@@ -224,7 +224,7 @@ class Walk {
   void key_combination(const SortedJson& schema, const SortedJson& value, const std::string& pointer) {
     if (schema.contains("not")) excluded_keys(schema["not"], value, pointer);
     if (schema.contains("allOf")) {
-      for (const SortedJson& part : schema["allOf"]) key_combination(part, value, pointer);
+      for (const SortedJson& subschema : schema["allOf"]) key_combination(subschema, value, pointer);
     }
     if (schema.contains("oneOf")) choice_of_keys(schema["oneOf"], value, pointer);
   }

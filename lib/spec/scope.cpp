@@ -70,9 +70,10 @@ struct Scope::MentionGraph {
     for (const std::string& name : names) {
       errors.attempt([&] {
         mentioned.push_back(mentioned_by(name));
-        std::vector<std::size_t>& own = mentions.emplace_back();
+        std::vector<std::size_t>& dependencies = mentions.emplace_back();
         for (const std::string& other : mentioned.back()) {
-          if (const auto known = index_of.find(other); known != index_of.end()) own.push_back(known->second);
+          if (const auto known = index_of.find(other); known != index_of.end())
+            dependencies.push_back(known->second);
         }
       });
     }
@@ -161,7 +162,7 @@ TableLookup Scope::tables_for(const std::string& pointer) const {
   };
   return {find, [this](std::string_view name) {
             std::vector<std::string> known;
-            for (const auto& [own, table] : tables_) known.push_back(own);
+            for (const auto& [table_name, table] : tables_) known.push_back(table_name);
             return suggestion(name, known);
           }};
 }
@@ -182,16 +183,16 @@ void Scope::link_definitions(const Node& root, MemoryReader& memory) {
   });
   const std::string kind = memory.names().empty() ? "definitions" : "definitions and memories";
   add_in_order(graph, graph.order(kind), [&](const std::string& name) {
-    const std::size_t place = graph.index_of.at(name);
-    note_memories(name, graph.mentioned[place]);
+    const std::size_t index = graph.index_of.at(name);
+    note_memories(name, graph.mentioned[index]);
     if (!is_memory(name)) {
       definitions_.add(name, link_text(root["definitions"][name], ExpectedType::any));
       return;
     }
     const auto find = [&](std::string_view mention) {
-      return find_for_memory(mention, graph.pointers[place]);
+      return find_for_memory(mention, graph.pointers[index]);
     };
-    Program truth = memory.linked(name, find, tables_for(graph.pointers[place]));
+    Program truth = memory.linked(name, find, tables_for(graph.pointers[index]));
     for (Program::Node& node : truth.nodes) {
       if (node.op == Operator::variable && node.a < is_box_.size() && is_box_[node.a]) node.a += kSeenCell;
     }
@@ -214,8 +215,8 @@ void Scope::note_memories(const std::string& name, const std::vector<std::string
 Binding Scope::find_for_memory(std::string_view name, const std::string& pointer) const {
   const std::optional<NameKind> kind = names_.find(std::string(name));
   const auto refuse = [&](const std::string& found, NameKind its_kind) {
-    throw SpecError(fmt::format("expected an expression over states, found the {} {}",
-                                kind_in_words(its_kind), quote_text(found)),
+    throw SpecError(fmt::format("expected an expression over states, found the {} {}", kind_name(its_kind),
+                                quote_text(found)),
                     pointer);
   };
   if (kind == NameKind::input || kind == NameKind::disturbance) refuse(std::string(name), *kind);
@@ -228,7 +229,7 @@ Binding Scope::find_for_memory(std::string_view name, const std::string& pointer
     return binding;
   }
   Program program = definitions_.expand(link(
-      name, [this](std::string_view own) { return find(own); }, ExpectedType::any, pointer));
+      name, [this](std::string_view mention) { return find(mention); }, ExpectedType::any, pointer));
   for (const std::uint32_t slot : program.variables()) {
     if (slot >= slot_names_.size()) continue;  // a memory's, for now
     const NameKind its_kind = names_.find(slot_names_[slot]).value();
@@ -284,7 +285,7 @@ Rational Scope::constant_expression(const Node& node) const {
     const std::optional<NameKind> kind = names_.find(name);
     if (kind && *kind != NameKind::constant) {
       throw SpecError(
-          fmt::format("expected constants only, found the {} {}", kind_in_words(*kind), quote_text(name)),
+          fmt::format("expected constants only, found the {} {}", kind_name(*kind), quote_text(name)),
           node.pointer());
     }
   }
@@ -294,12 +295,12 @@ Rational Scope::constant_expression(const Node& node) const {
   return value;
 }
 
-Program Scope::expression(const Node& node, ExpectedType expected, Over over) const {
+Program Scope::expression(const Node& node, ExpectedType expected, Dependence dependence) const {
   if (expected == ExpectedType::number) refuse_memories(node);
   Program program = definitions_.expand(link_text(node, expected));
-  check_dependence(program, over, node.pointer());
+  check_dependence(program, dependence, node.pointer());
   if (memories_.empty()) return program;
-  return seen_as(program, over == Over::states_and_inputs && !centres_ ? inputs_end_ : 0);
+  return seen_as(program, dependence == Dependence::states_and_inputs && !centres_ ? inputs_end_ : 0);
 }
 
 /// Only conditions may mention memories: other expressions say how states move or what agents prefer, and
@@ -346,17 +347,18 @@ Program Scope::link_text(const Node& node, ExpectedType expected) const {
   return link(node.text(), lookup, tables_for(node.pointer()), expected, node.pointer());
 }
 
-void Scope::check_dependence(const Program& program, Over over, const std::string& pointer) const {
+void Scope::check_dependence(const Program& program, Dependence dependence,
+                             const std::string& pointer) const {
   for (const std::uint32_t slot : program.variables()) {
     if (slot >= slot_names_.size()) continue;  // a memory's
     const std::string& name = slot_names_[slot];
     const NameKind kind = names_.find(name).value();
-    const bool is_allowed = over == Over::everything || kind == NameKind::state ||
-                            (over == Over::states_and_inputs && kind == NameKind::input);
+    const bool is_allowed = dependence == Dependence::everything || kind == NameKind::state ||
+                            (dependence == Dependence::states_and_inputs && kind == NameKind::input);
     if (is_allowed) continue;
     throw SpecError(fmt::format("expected an expression over {}, found the {} {}",
-                                over == Over::states ? "states" : "states and inputs", kind_in_words(kind),
-                                quote_text(name)),
+                                dependence == Dependence::states ? "states" : "states and inputs",
+                                kind_name(kind), quote_text(name)),
                     pointer);
   }
 }

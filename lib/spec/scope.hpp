@@ -31,7 +31,7 @@ namespace coordreq {
     const std::string& kind, const std::vector<std::string>& pointers);
 
 /// The variables that an expression of the spec may depend on.
-enum class Over : std::uint8_t { states, states_and_inputs, everything };
+enum class Dependence : std::uint8_t { states, states_and_inputs, everything };
 
 /// Everything that expressions of one spec can name, and the way to read numbers and expressions with it.
 class Scope {
@@ -51,8 +51,9 @@ class Scope {
   [[nodiscard]] Rational time(const JsonDocument::Node& node) const;
 
   /// The linked expression in a string. Conditions may name memories, numbers may not.
-  /// @throws SpecError for errors in it, and if it depends on more than `over`
-  [[nodiscard]] Program expression(const JsonDocument::Node& node, ExpectedType expected, Over over) const;
+  /// @throws SpecError for errors in it, and if it depends on more than `dependence`
+  [[nodiscard]] Program expression(const JsonDocument::Node& node, ExpectedType expected,
+                                   Dependence dependence) const;
 
   /// The slot is one of a disturbance.
   [[nodiscard]] bool is_disturbance(std::uint32_t slot) const;
@@ -68,7 +69,7 @@ class Scope {
   void note_memories(const std::string& name, const std::vector<std::string>& mentioned);
   void refuse_memories(const JsonDocument::Node& node) const;
   [[nodiscard]] Binding find_for_memory(std::string_view name, const std::string& pointer) const;
-  void check_dependence(const Program& program, Over over, const std::string& pointer) const;
+  void check_dependence(const Program& program, Dependence dependence, const std::string& pointer) const;
   [[nodiscard]] Rational constant_expression(const JsonDocument::Node& node) const;
   [[nodiscard]] Program link_text(const JsonDocument::Node& node, ExpectedType expected) const;
   [[nodiscard]] Binding find(std::string_view name) const;
@@ -82,7 +83,7 @@ class Scope {
   std::string time_unit_;     ///< as written; empty if none was given
   std::vector<bool> is_box_;  ///< [slot] of the spec's own states: not discrete
   std::uint32_t inputs_end_ = 0;
-  bool centres_ = false;  ///< memories are asked of the centres of cells
+  bool centres_ = false;  ///< memories are evaluated at the centres of cells
   std::vector<std::string> slot_names_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::map<std::string, Rational, std::less<>> constants_;

@@ -63,9 +63,9 @@ std::vector<std::string> steps_of(const std::string& path) {
 }
 
 /// Finds the place of a setting in a spec.
-class PlaceFinder {
+class PointerFinder {
  public:
-  PlaceFinder(const Json& spec, const std::string& path) : path_(path), at_(&spec) {}
+  PointerFinder(const Json& spec, const std::string& path) : path_(path), at_(&spec) {}
 
   /// Goes down the steps; members that are missing are added where the schema allows them.
   /// @returns keys, and indices of elements that are there
@@ -73,17 +73,17 @@ class PlaceFinder {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       walked_ = {steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(i)};
       if (at_ == nullptr) {
-        place_.push_back(steps[i]);
+        steps_.push_back(steps[i]);
       } else if (at_->is_object()) {
         enter_member(steps, i);
       } else if (at_->is_array()) {
         enter_element(steps[i]);
       } else {
-        fail(fmt::format("no {} in {}: it is {}", quote_text(steps[i]), place(), quote_text(at_->dump())),
+        fail(fmt::format("no {} in {}: it is {}", quote_text(steps[i]), location(), quote_text(at_->dump())),
              path_);
       }
     }
-    return place_;
+    return steps_;
   }
 
  private:
@@ -91,7 +91,7 @@ class PlaceFinder {
     const auto found = at_->find(steps[i]);
     if (found == at_->end()) check_may_add(steps, i);
     at_ = found == at_->end() ? nullptr : &*found;
-    place_.push_back(steps[i]);
+    steps_.push_back(steps[i]);
   }
 
   /// Refuses to add a constant, a definition or a table, since nothing would refer to it.
@@ -124,18 +124,18 @@ class PlaceFinder {
   }
 
   /// Whether an object has the key, or a list an element with the name.
-  static bool has_name(const Json& part, const std::string& name) {
-    if (part.is_object()) return part.contains(name);
-    return part.is_array() && std::any_of(part.begin(), part.end(), [&](const Json& element) {
+  static bool has_name(const Json& node, const std::string& name) {
+    if (node.is_object()) return node.contains(name);
+    return node.is_array() && std::any_of(node.begin(), node.end(), [&](const Json& element) {
              return element.is_object() && element.value("name", Json()) == name;
            });
   }
 
   void enter_element(const std::string& step) {
-    if (at_->empty()) fail(fmt::format("no {} in {}: it is empty", quote_text(step), place()), path_);
+    if (at_->empty()) fail(fmt::format("no {} in {}: it is empty", quote_text(step), location()), path_);
     const std::size_t index = index_of(step);
     at_ = &(*at_)[index];
-    place_.push_back(std::to_string(index));
+    steps_.push_back(std::to_string(index));
   }
 
   [[nodiscard]] std::size_t index_of(const std::string& step) const {
@@ -150,20 +150,20 @@ class PlaceFinder {
       if (*name == step) return index;
       names.push_back(*name);
     }
-    fail(fmt::format("no {} in {}, expected {}a number from 0 to {}", quote_text(step), place(),
+    fail(fmt::format("no {} in {}, expected {}a number from 0 to {}", quote_text(step), location(),
                      names.empty() ? "" : quote_list(names, "or") + ", or ", at_->size() - 1),
          path_);
   }
 
   /// Where the walk is, in words.
-  [[nodiscard]] std::string place() const {
+  [[nodiscard]] std::string location() const {
     return walked_.empty() ? "the spec" : one_line(fmt::format("{}", fmt::join(walked_, ".")));
   }
 
   const std::string& path_;
   const Json* at_;  ///< nothing where it is not there
   std::vector<std::string> walked_;
-  std::vector<std::string> place_;
+  std::vector<std::string> steps_;
 };
 
 /// A step as it is written, of which so many make one of the old ones.
@@ -210,7 +210,7 @@ std::optional<std::string> pointer_of_setting(const std::string& text, const Spe
   const Json spec = spec_json(text, "the spec");
   std::string pointer;
   try {
-    for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
+    for (const std::string& step : PointerFinder(spec, setting.path).to(steps_of(setting.path)))
       pointer = member_pointer(pointer, step);
   } catch (const UsageError&) {
     return std::nullopt;
@@ -234,7 +234,7 @@ std::string with_setting(const std::string& text, const std::string& source, con
   Json spec = spec_json(text, source);
   Json* at = &spec;
   // A JSON pointer would make a list of what is not there wherever a step is a number, however large.
-  for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
+  for (const std::string& step : PointerFinder(spec, setting.path).to(steps_of(setting.path)))
     at = at->is_array() ? &(*at)[std::stoul(step)] : &(*at)[step];
   *at = value_of(setting);
   return json_text(spec);

@@ -7,7 +7,7 @@
 
 #include "spec/spec_types.hpp"
 
-// The states that agents see by themselves while they are silent (contract, section 8).
+// The states that agents see on their own while they are silent (contract, section 8).
 namespace coordreq {
 
 /// Some agent does not see all states: only then is there anything to ask.

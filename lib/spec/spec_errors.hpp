@@ -30,11 +30,11 @@ class ErrorList {
 
   /// Works on a part, and keeps what is wrong with it; where enough is wrong it does nothing. @returns
   /// whether the part is right
-  template <class Part>
-  bool attempt(const Part& part) {
+  template <class Work>
+  bool attempt(const Work& work) {
     if (is_full()) return false;
     try {
-      part();
+      work();
       return true;
     } catch (const SpecErrors& errors) {
       for (const std::string& line : errors.lines()) add(line);

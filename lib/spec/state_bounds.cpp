@@ -8,10 +8,10 @@ namespace {
 
 /// The value of a node that is a constant, or its negative.
 std::optional<Rational> constant_of(const Program& program, std::uint32_t node) {
-  const Program::Node& own = program.nodes[node];
-  if (own.op == Operator::constant) return program.constants[own.a];
-  if (own.op != Operator::negate) return std::nullopt;
-  const std::optional<Rational> value = constant_of(program, own.a);
+  const Program::Node& operation = program.nodes[node];
+  if (operation.op == Operator::constant) return program.constants[operation.a];
+  if (operation.op != Operator::negate) return std::nullopt;
+  const std::optional<Rational> value = constant_of(program, operation.a);
   return value ? std::optional(Rational(-*value)) : std::nullopt;
 }
 
@@ -29,11 +29,11 @@ std::optional<StateBound> bound_of(const Program& program, const Program::Node& 
 
 void add_bounds(const Program& program, std::uint32_t node, std::size_t states,
                 std::vector<StateBound>& bounds) {
-  const Program::Node& own = program.nodes[node];
-  if (own.op == Operator::logical_and) {
-    add_bounds(program, own.a, states, bounds);
-    add_bounds(program, own.b, states, bounds);
-  } else if (const std::optional<StateBound> bound = bound_of(program, own, states)) {
+  const Program::Node& operation = program.nodes[node];
+  if (operation.op == Operator::logical_and) {
+    add_bounds(program, operation.a, states, bounds);
+    add_bounds(program, operation.b, states, bounds);
+  } else if (const std::optional<StateBound> bound = bound_of(program, operation, states)) {
     bounds.push_back(*bound);
   }
 }

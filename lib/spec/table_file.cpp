@@ -147,9 +147,9 @@ class TableFile {
   [[nodiscard]] std::vector<Cell> complete(const std::map<Cell, Cell>& row, const std::vector<Cell>& x,
                                            const Cell& y) const {
     std::vector<Cell> values;
-    for (const Cell& place : x) {
-      const auto found = row.find(place);
-      if (found == row.end()) fail(fmt::format("no value at x = {}, y = {}", place.text, y.text));
+    for (const Cell& column : x) {
+      const auto found = row.find(column);
+      if (found == row.end()) fail(fmt::format("no value at x = {}, y = {}", column.text, y.text));
       values.push_back(found->second);
     }
     return values;

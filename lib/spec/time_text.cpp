@@ -41,10 +41,10 @@ std::optional<Rational> time_in(std::string_view text, std::string_view unit) {
   const std::size_t end = text.find_last_of("0123456789.");
   if (end == std::string_view::npos) return std::nullopt;
   const std::optional<Rational> number = parse_decimal(text.substr(0, end + 1));
-  const std::optional<Rational> own = length_of(without_blanks(text.substr(end + 1)));
+  const std::optional<Rational> unit_length = length_of(without_blanks(text.substr(end + 1)));
   const std::optional<Rational> other = length_of(unit);
-  if (!number || !own || !other) return std::nullopt;
-  return Rational(*number * *own / *other);
+  if (!number || !unit_length || !other) return std::nullopt;
+  return Rational(*number * *unit_length / *other);
 }
 
 bool is_time_unit(std::string_view unit) {

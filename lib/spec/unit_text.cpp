@@ -8,11 +8,11 @@ namespace coordreq {
 namespace {
 
 struct Spelling {
-  std::string_view word;
+  std::string_view name;
   std::string_view symbol;
 };
 
-constexpr std::array kTimeWords = {
+constexpr std::array kTimeUnits = {
     Spelling{"sec", "s"},          Spelling{"second", "s"},        Spelling{"seconds", "s"},
     Spelling{"minute", "min"},     Spelling{"minutes", "min"},     Spelling{"hr", "h"},
     Spelling{"hour", "h"},         Spelling{"hours", "h"},         Spelling{"day", "d"},
@@ -21,15 +21,15 @@ constexpr std::array kTimeWords = {
     Spelling{"nanoseconds", "ns"}};
 
 /// Bytes of non-ASCII letters count too, so that a word is never cut inside one.
-bool belongs_to_word(char c) {
+bool belongs_to_name(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte >= 0x80 || byte == '_' || std::isalpha(byte) != 0;
 }
 
-std::string_view spelling_of(std::string_view word) {
-  const auto* found = std::find_if(kTimeWords.begin(), kTimeWords.end(),
-                                   [&](const Spelling& entry) { return entry.word == word; });
-  return found == kTimeWords.end() ? word : found->symbol;
+std::string_view spelling_of(std::string_view name) {
+  const auto* found = std::find_if(kTimeUnits.begin(), kTimeUnits.end(),
+                                   [&](const Spelling& entry) { return entry.name == name; });
+  return found == kTimeUnits.end() ? name : found->symbol;
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ std::string udunits_spelling(std::string_view unit) {
   if (unit.empty()) return "1";
   std::string result;
   while (!unit.empty()) {
-    const auto word_end = std::find_if_not(unit.begin(), unit.end(), belongs_to_word);
-    const auto length = std::max<std::size_t>(1, static_cast<std::size_t>(word_end - unit.begin()));
+    const auto name_end = std::find_if_not(unit.begin(), unit.end(), belongs_to_name);
+    const auto length = std::max<std::size_t>(1, static_cast<std::size_t>(name_end - unit.begin()));
     result += spelling_of(unit.substr(0, length));
     unit.remove_prefix(length);
   }

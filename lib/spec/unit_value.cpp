@@ -80,24 +80,24 @@ class UnitReader {
     }
     const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
     const auto end = std::find_if_not(rest_.begin(), rest_.end(), is_letter);
-    const std::string_view word = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
+    const std::string_view name = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
     const auto* const found =
-        std::find_if(kUnits.begin(), kUnits.end(), [&](const NamedUnit& unit) { return unit.name == word; });
+        std::find_if(kUnits.begin(), kUnits.end(), [&](const NamedUnit& unit) { return unit.name == name; });
     if (found == kUnits.end()) return std::nullopt;
-    rest_.remove_prefix(word.size());
+    rest_.remove_prefix(name.size());
     return power(found->value, exponent());
   }
 
   /// "^2", "^-1", "2", "-1"; none: 1.
   int exponent() {
-    std::size_t place = 0;
+    std::size_t position = 0;
     const auto at = [&](std::size_t i) { return i < rest_.size() ? rest_[i] : ' '; };
-    if (at(place) == '^') ++place;
-    const bool is_negative = at(place) == '-';
-    if (is_negative) ++place;
-    if (at(place) < '1' || at(place) > '9') return 1;
-    const int digit = at(place) - '0';
-    rest_.remove_prefix(place + 1);
+    if (at(position) == '^') ++position;
+    const bool is_negative = at(position) == '-';
+    if (is_negative) ++position;
+    if (at(position) < '1' || at(position) > '9') return 1;
+    const int digit = at(position) - '0';
+    rest_.remove_prefix(position + 1);
     return is_negative ? -digit : digit;
   }
 
@@ -128,7 +128,7 @@ bool is_same(const UnitValue& a, const UnitValue& b) {
 UnitValue power(const UnitValue& unit, int exponent) {
   REQUIRES(-9 <= exponent && exponent <= 9);
   UnitValue result{std::pow(unit.scale, exponent), unit.powers};
-  for (int& own : result.powers) own *= exponent;
+  for (int& power : result.powers) power *= exponent;
   return result;
 }
 

@@ -82,7 +82,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
   return best == nullptr ? std::string() : ", did you mean " + quote_text(*best) + "?";
 }
 
-std::string shown_pointer(std::string_view pointer) {
+std::string pointer_text(std::string_view pointer) {
   return pointer.empty() ? "top level" : one_line(pointer);
 }
 

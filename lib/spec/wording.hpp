@@ -21,7 +21,7 @@ namespace coordreq {
 [[nodiscard]] std::string suggestion(std::string_view name, const std::vector<std::string>& known);
 
 /// The JSON pointer for messages: "top level" for the whole document.
-[[nodiscard]] std::string shown_pointer(std::string_view pointer);
+[[nodiscard]] std::string pointer_text(std::string_view pointer);
 
 /// The JSON pointer of a member of the object at `pointer`.
 [[nodiscard]] std::string member_pointer(std::string_view pointer, std::string_view key);

@@ -8,7 +8,7 @@
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/spec_types.hpp"
-#include "verify/own_posts.hpp"
+#include "verify/reference_posts.hpp"
 
 namespace coordreq {
 
@@ -24,7 +24,7 @@ class AnalysisTables {
 
   [[nodiscard]] const std::vector<std::int64_t>& cells() const { return cells_; }
   [[nodiscard]] PostTable posts(std::size_t state);
-  /// @pre `spec` asks for safety between the samples
+  /// @pre `spec` requires safety between the samples
   [[nodiscard]] PostTable tubes(std::size_t state);
   [[nodiscard]] PostTable whole_tubes(std::size_t state);
   [[nodiscard]] const Abstraction& whole() { return source_.whole(); }

@@ -15,7 +15,7 @@ Arb hull_of_corners(const Arb& y, const Arb& x) {
 }
 
 /// All terms but the constant one: r' = (x y' - y x') / (x^2 + y^2).
-ArbSeries moving_part(const ArbSeries& y, const ArbSeries& x, slong length) {
+ArbSeries moving_term(const ArbSeries& y, const ArbSeries& x, slong length) {
   const auto product = [length](const ArbSeries& a, const ArbSeries& b) {
     ArbSeries result;
     arb_poly_mullow(result.get(), a.get(), b.get(), length, kArbBits);
@@ -52,7 +52,7 @@ bool angle_series(ArbSeries& result, const ArbSeries& y, const ArbSeries& x, slo
     return true;
   }
   value = hull_of_corners(up, right);
-  result = moving_part(y, x, length);
+  result = moving_term(y, x, length);
   result.set(0, value);
   return false;
 }

@@ -25,12 +25,12 @@ class Budget {
  public:
   explicit Budget(Work all) : all_(all), left_(all) {}
 
-  [[nodiscard]] bool is_over() const { return to_share() <= 0; }
+  [[nodiscard]] bool is_spent() const { return to_share() <= 0; }
   [[nodiscard]] Work left() const { return std::max<Work>(left_, 0); }
-  /// Work that one of `questions` questions may take; 0 once the budget is over.
+  /// Work that one of `questions` questions may take; 0 once the budget is spent.
   [[nodiscard]] Work share(std::int64_t questions) const {
-    return is_over() ? 0
-                     : std::clamp<Work>(to_share() / std::max<std::int64_t>(questions, 1), 1, most_of_one());
+    return is_spent() ? 0
+                      : std::clamp<Work>(to_share() / std::max<std::int64_t>(questions, 1), 1, most_of_one());
   }
   /// Work that an answer may take beyond its share, so that a block of so many questions takes no more than
   /// is kept back.
@@ -38,16 +38,16 @@ class Budget {
   void spend(Work used) { left_ -= used; }
   [[nodiscard]] Work all() const { return all_; }
   [[nodiscard]] Work spent() const { return all_ - left_; }
-  /// How many posts are left open because it was over.
+  /// How many posts are left open because it was spent.
   [[nodiscard]] std::int64_t left_open() const { return left_open_; }
   void leave_open(std::int64_t posts) { left_open_ += posts; }
   /// Takes from this budget what has come of a part of it.
-  void settle(const Budget& part) {
-    spend(part.spent());
-    leave_open(part.left_open());
+  void settle(const Budget& fraction) {
+    spend(fraction.spent());
+    leave_open(fraction.left_open());
   }
   /// The part of this budget for `some` of `all` units of work.
-  [[nodiscard]] Budget part(std::int64_t some, std::int64_t all) const {
+  [[nodiscard]] Budget fraction(std::int64_t some, std::int64_t all) const {
     const double share = static_cast<double>(some) / static_cast<double>(std::max<std::int64_t>(all, 1));
     return Budget(static_cast<Work>(static_cast<double>(left()) * std::min(share, 1.0)));
   }
@@ -65,9 +65,10 @@ class Budget {
 /// Answers one question: may take `most`, if that is 0 nothing. @returns what it took
 using AnswerWithin = std::function<Work(std::int64_t question, Work most, int worker)>;
 
-/// Answers questions 0, ..., count - 1 block by block, so that a budget is over at the same question whatever
-/// the number of threads. @param block questions that share what is left before any of them is asked
-/// @param answered is told how many are, after each block
+/// Answers questions 0, ..., count - 1 block by block, so that a budget is spent at the same question
+/// whatever the number of threads. @param block questions that share what is left before any of them is
+/// answered
+/// @param answered receives how many are, after each block
 void answer_within(Budget& budget, std::int64_t count, std::int64_t block, ThreadTeam& team,
                    const AnswerWithin& answer, const std::function<void(std::int64_t)>& answered = {});
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "answers/checking/posts.hpp"
 
 namespace coordreq {
@@ -40,12 +40,12 @@ Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std
   for (std::size_t e = 0; e < posts.entries.size(); ++e) {
     tally.add_checked(1);
     const IndexRange mine = without_far_ends(dimension, posts.entries[e]);
-    const std::int64_t place = posts.place_of(e);
-    const IndexRange found = without_far_ends(dimension, claimed.at(place));
-    if (found.first <= found.last && holds(dimension, found, mine) && holds(dimension, mine, found)) continue;
-    tally.add_wrong(place, [&] {
-      return fmt::format("{}: {} {}, expected {}", entry_text(grid, inputs, posts, place), dimension.name,
-                         range_text(dimension, found), range_text(dimension, mine));
+    const std::int64_t position = posts.position_of(e);
+    const IndexRange range = without_far_ends(dimension, claimed.at(position));
+    if (range.first <= range.last && holds(dimension, range, mine) && holds(dimension, mine, range)) continue;
+    tally.add_wrong(position, [&] {
+      return fmt::format("{}: {} {}, expected {}", entry_text(grid, inputs, posts, position), dimension.name,
+                         range_text(dimension, range), range_text(dimension, mine));
     });
   }
   return tally.finding();

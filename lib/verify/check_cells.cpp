@@ -67,7 +67,7 @@ class AllCells {
     const std::int64_t blocks = (count_ + block - 1) / block;
     const std::int64_t stride = stride_of(blocks);
     std::int64_t number = 0;
-    for (std::int64_t visited = 0; visited < blocks && !budget->is_over(); ++visited) {
+    for (std::int64_t visited = 0; visited < blocks && !budget->is_spent(); ++visited) {
       const std::int64_t before = looked_at();
       const std::int64_t end = std::min((number + 1) * block, count_);
       visit(number * block, end);

@@ -21,13 +21,13 @@ namespace coordreq {
                                       const Rational& upper);
 
 /// The verifier's bounds of the cells that cover all states between the samples, from one piece of a cell.
-struct OwnTube {
+struct TubeBounds {
   IndexRange outer;  ///< these are enough
   IndexRange inner;  ///< these are needed, as cells_needed() says
 
   /// From bounds as of cells_needed(): of wide cells each of which covers all, the one of the greatest index
   /// is enough.
-  [[nodiscard]] static OwnTube of(IndexRange enough, IndexRange needed) {
+  [[nodiscard]] static TubeBounds of(IndexRange enough, IndexRange needed) {
     return {{enough.first, std::max(enough.first, enough.last)}, needed};
   }
 };
@@ -47,19 +47,21 @@ class TubeTally {
   explicit TubeTally(const PostQuestion& question);
 
   /// True if the entry holds all that is enough.
-  [[nodiscard]] bool is_enough(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& tubes) const;
-  /// @param by how far up the own tubes have to be moved
-  /// @param own one for each piece of the cell; empty: there are no bounds
-  void add(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& tubes);
+  [[nodiscard]] bool is_enough(std::int64_t position, std::int64_t by,
+                               const std::vector<TubeBounds>& tubes) const;
+  /// @param by how far up the bounds have to be moved
+  /// @param tubes one for each piece of the cell; empty: there are no bounds
+  void add(std::int64_t position, std::int64_t by, const std::vector<TubeBounds>& tubes);
   /// The entry says that nothing is known, which blocks the pair: no tube need be computed.
   void add_unbounded() { tally_.add_checked(1); }
-  [[nodiscard]] bool is_unbounded(std::int64_t place) const;
+  [[nodiscard]] bool is_unbounded(std::int64_t position) const;
 
   [[nodiscard]] TubeFinding finding(bool may_be_exact);
 
  private:
-  [[nodiscard]] bool is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& tubes) const;
-  [[nodiscard]] std::string text_of(std::int64_t place, IndexRange needed) const;
+  [[nodiscard]] bool is_exact(IndexRange claimed, std::int64_t by,
+                              const std::vector<TubeBounds>& tubes) const;
+  [[nodiscard]] std::string text_of(std::int64_t position, IndexRange needed) const;
 
   const PostQuestion& question_;
   const GridDimension& dimension_;

@@ -7,7 +7,7 @@
 #include "answers/invariance/safe_tubes.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/check_tube.hpp"
-#include "verify/own_posts.hpp"
+#include "verify/reference_posts.hpp"
 #include "verify/safe_beyond.hpp"
 
 namespace coordreq {
@@ -64,9 +64,9 @@ CheckedTubes check_tubes(const ProblemSpec& spec, const UniformGrid& grid, const
                                 .check = "tubes " + grid[i].name};
     std::optional<TubeFinding> found = check_corner_tubes(question, team);
     if (!found) {
-      Budget part = budget.part(1, static_cast<std::int64_t>(grid.size() - i));
-      found = check_outward_tubes(question, part, team);
-      budget.settle(part);
+      Budget fraction = budget.fraction(1, static_cast<std::int64_t>(grid.size() - i));
+      found = check_outward_tubes(question, fraction, team);
+      budget.settle(fraction);
     }
     result.exact = result.exact && found && found->exact;
     if (found) {

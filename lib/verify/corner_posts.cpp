@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <atomic>
 
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 #include "base/error.hpp"
 #include "model/odometer.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
-#include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
+#include "verify/reference_posts.hpp"
 
 namespace coordreq {
 namespace {
@@ -25,8 +25,8 @@ struct Contribution {
   std::size_t source = 0;
   Rational factor;
   bool cut = false;                      ///< at the seam
-  const StoppedPart* stopped = nullptr;  ///< instead of the factor
-  std::vector<std::vector<Ends>> cells;  ///< [cell][piece], once they are asked for
+  const StoppedTerm* stopped = nullptr;  ///< instead of the factor
+  std::vector<std::vector<Ends>> cells;  ///< [cell][piece], once they are needed
 };
 
 class CornerPosts {
@@ -79,18 +79,18 @@ class CornerPosts {
   }
 
   void fill(const SampledMap& map, std::int64_t base) {
-    std::vector<Contribution> parts;
+    std::vector<Contribution> terms;
     const bool cut = jumps_at_a_seam(map);
     for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
       // A state that others only move along goes round with its cell: that need not be cut at the seam.
       const std::size_t source = influences_.moving[j];
       const bool follows = source == state_ && map.coefficient[j] == 1;
-      parts.push_back({source, map.coefficient[j], cut && !follows, nullptr, {}});
-      parts.back().cells.resize(static_cast<std::size_t>(grid_[source].count));
+      terms.push_back({source, map.coefficient[j], cut && !follows, nullptr, {}});
+      terms.back().cells.resize(static_cast<std::size_t>(grid_[source].count));
     }
-    for (const StoppedPart& stopped : map.stopped) parts[stopped.moving].stopped = &stopped;
-    cells_.for_each(base, std::nullopt, [&](const std::vector<std::int64_t>& cell, std::int64_t place) {
-      table_.entries[*table_.find(place)] = are_tubes_ ? tube(map, parts, cell) : post(map, parts, cell);
+    for (const StoppedTerm& stopped : map.stopped) terms[stopped.moving].stopped = &stopped;
+    cells_.for_each(base, std::nullopt, [&](const std::vector<std::int64_t>& cell, std::int64_t position) {
+      table_.entries[*table_.find(position)] = are_tubes_ ? tube(map, terms, cell) : post(map, terms, cell);
     });
   }
 
@@ -105,58 +105,58 @@ class CornerPosts {
     return false;
   }
 
-  const std::vector<Contribution::Ends>& ends_of(Contribution& part, std::int64_t k) const {
-    auto& ends = part.cells[static_cast<std::size_t>(k)];
+  const std::vector<Contribution::Ends>& ends_of(Contribution& term, std::int64_t k) const {
+    auto& ends = term.cells[static_cast<std::size_t>(k)];
     if (!ends.empty()) return ends;
-    const GridDimension& dimension = grid_[part.source];
+    const GridDimension& dimension = grid_[term.source];
     const Rational reach = dimension.radius() + dimension.measurement_error;
     const RationalInterval cell{.lower = dimension.point(k) - reach, .upper = dimension.point(k) + reach};
-    if (part.stopped != nullptr) {
-      ends.push_back(ends_of_stopped(dimension, *part.stopped, parts_of(dimension, k).front(), cell.upper));
+    if (term.stopped != nullptr) {
+      ends.push_back(ends_of_stopped(dimension, *term.stopped, pieces_of(dimension, k).front(), cell.upper));
       return ends;
     }
     // The upper end of a half-open cell is not in it, so neither is the greatest value if that grows with it.
-    const bool attained = !(part.factor > 0) || dimension.discrete;
-    for (const RationalInterval& place : part.cut ? parts_of(dimension, k) : std::vector{cell})
-      ends.push_back({Rational(part.factor * place.lower), Rational(part.factor * place.upper), attained});
+    const bool attained = !(term.factor > 0) || dimension.discrete;
+    for (const RationalInterval& piece : term.cut ? pieces_of(dimension, k) : std::vector{cell})
+      ends.push_back({Rational(term.factor * piece.lower), Rational(term.factor * piece.upper), attained});
     return ends;
   }
 
   /// @param uncut the upper end of the cell if there was no limit
-  [[nodiscard]] Contribution::Ends ends_of_stopped(const GridDimension& dimension, const StoppedPart& part,
-                                                   const RationalInterval& place,
+  [[nodiscard]] Contribution::Ends ends_of_stopped(const GridDimension& dimension, const StoppedTerm& term,
+                                                   const RationalInterval& piece,
                                                    const Rational& uncut) const {
     const Rational bottom = dimension.first;
     const Rational top = dimension.point(dimension.count - 1);
     const Rational& tau = spec_.dynamics.period;
-    const TimePolynomial sum = part.response.integral();
+    const TimePolynomial sum = term.response.integral();
     const auto from = [&](const Rational& start, const Rational& rate) {
       Rational moving = tau;
       if (rate < 0 && dimension.below == Outside::stop)
         moving = std::min(moving, Rational((bottom - start) / rate));
       if (rate > 0 && dimension.above == Outside::stop)
         moving = std::min(moving, Rational((top - start) / rate));
-      return Rational(part.response.at(tau) * start + rate * (sum.at(tau) - sum.at(tau - moving)));
+      return Rational(term.response.at(tau) * start + rate * (sum.at(tau) - sum.at(tau - moving)));
     };
-    const Rational low = from(place.lower, part.slowest);
-    const Rational high = from(place.upper, part.fastest);
-    if (!part.rises) return {low, high, true};
+    const Rational low = from(piece.lower, term.slowest);
+    const Rational high = from(piece.upper, term.fastest);
+    if (!term.rises) return {low, high, true};
     if (dimension.above == Outside::stop && uncut > top)
       return {low, high, true};  // the limit itself is in it
     // All that comes near the end of the cell may be held at the same limit, if it is v itself.
-    const Rational end = place.upper + part.fastest * tau;
+    const Rational end = piece.upper + term.fastest * tau;
     const bool held = (dimension.below == Outside::stop && end <= bottom) ||
                       (dimension.above == Outside::stop && end > top);
-    return {low, high, held && part.response.is_one()};
+    return {low, high, held && term.response.is_one()};
   }
 
-  /// The cells met from all pieces of one cell.
-  [[nodiscard]] IndexRange post(const SampledMap& map, std::vector<Contribution>& parts,
+  /// The cells reached from all pieces of one cell.
+  [[nodiscard]] IndexRange post(const SampledMap& map, std::vector<Contribution>& terms,
                                 const std::vector<std::int64_t>& cell) const {
     std::vector<const std::vector<Contribution::Ends>*> ends;
     std::vector<std::int64_t> counts;
-    for (std::size_t j = 0; j < parts.size(); ++j) {
-      ends.push_back(&ends_of(parts[j], cell[j]));
+    for (std::size_t j = 0; j < terms.size(); ++j) {
+      ends.push_back(&ends_of(terms[j], cell[j]));
       counts.push_back(static_cast<std::int64_t>(ends.back()->size()));
     }
     std::optional<IndexRange> range;
@@ -165,42 +165,42 @@ class CornerPosts {
       std::vector<const Contribution::Ends*> box;
       for (std::size_t j = 0; j < ends.size(); ++j)
         box.push_back(&(*ends[j])[static_cast<std::size_t>(piece[j])]);
-      const IndexRange next = met_from(map, box);
+      const IndexRange next = cells_from(map, box);
       range = range ? both_of(*range, next, target_) : next;
     } while (piece.advance());
     return *range;
   }
 
-  [[nodiscard]] IndexRange tube(const SampledMap& map, std::vector<Contribution>& parts,
+  [[nodiscard]] IndexRange tube(const SampledMap& map, std::vector<Contribution>& terms,
                                 const std::vector<std::int64_t>& cell) const {
-    const std::size_t own = row_of(influences_, state_).value();
-    if (!map.rate || !map.exact || (parts[own].stopped == nullptr && !keeps_direction(map, parts, cell)))
+    const std::size_t row = row_of(influences_, state_).value();
+    if (!map.rate || !map.exact || (terms[row].stopped == nullptr && !keeps_direction(map, terms, cell)))
       return kUnknownTube;
     std::vector<const Contribution::Ends*> box;
-    for (std::size_t j = 0; j < parts.size(); ++j) {
-      const auto& ends = ends_of(parts[j], cell[j]);
+    for (std::size_t j = 0; j < terms.size(); ++j) {
+      const auto& ends = ends_of(terms[j], cell[j]);
       if (ends.size() > 1) return kUnknownTube;
       box.push_back(&ends.front());
     }
     const RationalInterval end = hull_of_corners(box);
-    const RationalInterval start = parts_of(target_, cell[own]).front();
+    const RationalInterval start = pieces_of(target_, cell[row]).front();
     return cells_needed(target_, std::min(start.lower, Rational(end.lower + map.lower)),
                         std::max(start.upper, Rational(end.upper + map.upper)));
   }
 
   /// Whether the derivative has one sign, wherever the states that are stopped can be during the period.
-  [[nodiscard]] bool keeps_direction(const SampledMap& map, const std::vector<Contribution>& parts,
+  [[nodiscard]] bool keeps_direction(const SampledMap& map, const std::vector<Contribution>& terms,
                                      const std::vector<std::int64_t>& cell) const {
     Rational least = map.rate->slowest, greatest = map.rate->fastest;
-    for (std::size_t j = 0; j < parts.size(); ++j) {
+    for (std::size_t j = 0; j < terms.size(); ++j) {
       const Rational& slope = map.rate->slope[j];
       if (slope == 0) continue;
-      if (parts[j].stopped == nullptr) return false;
-      const GridDimension& dimension = grid_[parts[j].source];
-      RationalInterval range = parts_of(dimension, cell[j]).front();
+      if (terms[j].stopped == nullptr) return false;
+      const GridDimension& dimension = grid_[terms[j].source];
+      RationalInterval range = pieces_of(dimension, cell[j]).front();
       const Rational& tau = spec_.dynamics.period;
-      range.lower = std::min(range.lower, Rational(range.lower + parts[j].stopped->slowest * tau));
-      range.upper = std::max(range.upper, Rational(range.upper + parts[j].stopped->fastest * tau));
+      range.lower = std::min(range.lower, Rational(range.lower + terms[j].stopped->slowest * tau));
+      range.upper = std::max(range.upper, Rational(range.upper + terms[j].stopped->fastest * tau));
       if (dimension.below == Outside::stop) range.lower = std::max(range.lower, dimension.first);
       if (dimension.above == Outside::stop)
         range.upper = std::min(range.upper, dimension.point(dimension.count - 1));
@@ -210,8 +210,8 @@ class CornerPosts {
     return least >= 0 || greatest <= 0;
   }
 
-  [[nodiscard]] IndexRange met_from(const SampledMap& map,
-                                    const std::vector<const Contribution::Ends*>& box) const {
+  [[nodiscard]] IndexRange cells_from(const SampledMap& map,
+                                      const std::vector<const Contribution::Ends*>& box) const {
     const bool attained =
         !map.exact ||
         std::all_of(box.begin(), box.end(), [](const Contribution::Ends* ends) { return ends->attained; });
@@ -219,8 +219,8 @@ class CornerPosts {
     const Rational &least = hull.lower, &greatest = hull.upper;
     const Rational error = target_.measurement_error;
     if (target_.discrete) return index_of(least + map.lower, greatest + map.upper);
-    return cells_met(target_, spec_.abstraction.cells, least + map.lower - error,
-                     greatest + map.upper + error, attained);
+    return meeting_cells(target_, spec_.abstraction.cells, least + map.lower - error,
+                         greatest + map.upper + error, attained);
   }
 
   [[nodiscard]] static RationalInterval hull_of_corners(const std::vector<const Contribution::Ends*>& box) {

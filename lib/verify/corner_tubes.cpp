@@ -2,7 +2,7 @@
 #include <atomic>
 #include <utility>
 
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 #include "model/odometer.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 /// The amounts that one moving state adds, from both ends of each piece of its cells, in units of the
 /// target's step.
-struct TimedPart {
+struct TimedTerm {
   struct Ends {
     TimePolynomial lower;
     TimePolynomial upper;
@@ -23,7 +23,7 @@ struct TimedPart {
   std::size_t source = 0;
   TimePolynomial factor;                 ///< in steps
   bool cut = false;                      ///< at the seam
-  std::vector<std::vector<Ends>> cells;  ///< [cell][piece], once they are asked for
+  std::vector<std::vector<Ends>> cells;  ///< [cell][piece], once they are needed
 };
 
 /// The tubes of all cells for one choice of inputs and parameters.
@@ -41,32 +41,32 @@ class CornerTubes {
         tally_(tally) {}
 
   void check(const TimedMap& map, std::int64_t base) {
-    find_parts(map);
+    find_terms(map);
     const auto left_out = follows_ ? std::optional(state_) : std::nullopt;
     cells_.for_each(base, left_out, [&](const std::vector<std::int64_t>& cell, std::int64_t first) {
-      const std::vector<OwnTube> own = tubes(map, cell);
+      const std::vector<TubeBounds> bounds = tubes(map, cell);
       for (std::int64_t k = 0; k < (follows_ ? target_.count : 1); ++k) {
-        const std::int64_t place = first + k * claimed_.state_stride[state_];
-        if (claimed_.find(place)) tally_.add(place, k, own);
+        const std::int64_t position = first + k * claimed_.state_stride[state_];
+        if (claimed_.find(position)) tally_.add(position, k, bounds);
       }
     });
   }
 
  private:
-  void find_parts(const TimedMap& map) {
+  void find_terms(const TimedMap& map) {
     const bool cut = crosses_a_seam(map);
     follows_ = false;
-    parts_.clear();
+    terms_.clear();
     for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
       const std::size_t source = influences_.moving[j];
       const bool follows = source == state_ && map.coefficient[j].is_one();
       follows_ = follows_ || follows;
-      parts_.push_back({sign_on(map.coefficient[j], tau_),
+      terms_.push_back({sign_on(map.coefficient[j], tau_),
                         source,
                         map.coefficient[j] * (1 / target_.step),
                         cut && !follows,
                         {}});
-      parts_.back().cells.resize(static_cast<std::size_t>(grid_[source].count));
+      terms_.back().cells.resize(static_cast<std::size_t>(grid_[source].count));
     }
   }
 
@@ -80,55 +80,56 @@ class CornerTubes {
     return false;
   }
 
-  const std::vector<TimedPart::Ends>& ends_of(TimedPart& part, std::int64_t k) const {
-    auto& ends = part.cells[static_cast<std::size_t>(k)];
+  const std::vector<TimedTerm::Ends>& ends_of(TimedTerm& term, std::int64_t k) const {
+    auto& ends = term.cells[static_cast<std::size_t>(k)];
     if (!ends.empty()) return ends;
-    const GridDimension& dimension = grid_[part.source];
+    const GridDimension& dimension = grid_[term.source];
     const Rational reach = dimension.radius() + dimension.measurement_error;
-    std::vector<RationalInterval> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
-    if (part.cut) places = parts_of(dimension, k);
-    for (const RationalInterval& place : places)
-      ends.push_back({part.factor * place.lower, part.factor * place.upper});
+    std::vector<RationalInterval> pieces = {{dimension.point(k) - reach, dimension.point(k) + reach}};
+    if (term.cut) pieces = pieces_of(dimension, k);
+    for (const RationalInterval& piece : pieces)
+      ends.push_back({term.factor * piece.lower, term.factor * piece.upper});
     return ends;
   }
 
-  [[nodiscard]] std::vector<OwnTube> tubes(const TimedMap& map, const std::vector<std::int64_t>& cell) {
+  [[nodiscard]] std::vector<TubeBounds> tubes(const TimedMap& map, const std::vector<std::int64_t>& cell) {
     std::vector<std::int64_t> counts;
-    for (std::size_t j = 0; j < parts_.size(); ++j)
-      counts.push_back(static_cast<std::int64_t>(ends_of(parts_[j], cell[j]).size()));
-    std::vector<OwnTube> result;
+    for (std::size_t j = 0; j < terms_.size(); ++j)
+      counts.push_back(static_cast<std::int64_t>(ends_of(terms_[j], cell[j]).size()));
+    std::vector<TubeBounds> result;
     Odometer piece(counts);
     do {
-      std::vector<const TimedPart::Ends*> box;
-      for (std::size_t j = 0; j < parts_.size(); ++j) {
+      std::vector<const TimedTerm::Ends*> box;
+      for (std::size_t j = 0; j < terms_.size(); ++j) {
         box.push_back(
-            &parts_[j].cells[static_cast<std::size_t>(cell[j])][static_cast<std::size_t>(piece[j])]);
+            &terms_[j].cells[static_cast<std::size_t>(cell[j])][static_cast<std::size_t>(piece[j])]);
       }
       result.push_back(tube_from(map, box));
     } while (piece.advance());
     return result;
   }
 
-  [[nodiscard]] OwnTube tube_from(const TimedMap& map, const std::vector<const TimedPart::Ends*>& box) const {
-    const FloorOfLeast first = least_over_corners(map, box, false);
-    const FloorOfLeast last = least_over_corners(map, box, true);
+  [[nodiscard]] TubeBounds tube_from(const TimedMap& map,
+                                     const std::vector<const TimedTerm::Ends*>& box) const {
+    const FloorOfLeast first = least_at_corners(map, box, false);
+    const FloorOfLeast last = least_at_corners(map, box, true);
     const auto range = [](std::int64_t low, std::int64_t high) {
       return IndexRange{saturate_index(low), saturate_index(high)};
     };
-    return OwnTube::of(range(first.outer, -last.outer), range(first.inner, -last.inner));
+    return TubeBounds::of(range(first.outer, -last.outer), range(first.inner, -last.inner));
   }
 
   /// floor of the least value in steps plus the reach of a cell; of all values negated if `upper`.
-  [[nodiscard]] FloorOfLeast least_over_corners(const TimedMap& map,
-                                                const std::vector<const TimedPart::Ends*>& box,
-                                                bool upper) const {
+  [[nodiscard]] FloorOfLeast least_at_corners(const TimedMap& map,
+                                              const std::vector<const TimedTerm::Ends*>& box,
+                                              bool upper) const {
     std::vector<std::size_t> open;
     TimePolynomial fixed = {cell_reach(upper)};
     for (std::size_t j = 0; j < box.size(); ++j) {
-      if (parts_[j].sign == 0) {
+      if (terms_[j].sign == 0) {
         open.push_back(j);
       } else {
-        fixed += (parts_[j].sign > 0) == upper ? box[j]->upper : box[j]->lower;
+        fixed += (terms_[j].sign > 0) == upper ? box[j]->upper : box[j]->lower;
       }
     }
     std::optional<FloorOfLeast> least;
@@ -173,7 +174,7 @@ class CornerTubes {
   CellsOfTable cells_;
   const Rational& tau_;
   TubeTally& tally_;
-  std::vector<TimedPart> parts_;
+  std::vector<TimedTerm> terms_;
   bool follows_ = false;  ///< the cells of the state itself are moved alike
 };
 

@@ -15,7 +15,7 @@ class ExpectedAttributes {
 
   /// Free text and what the analysis has found are not looked at here.
   void add(const FieldAttribute& attribute) {
-    if (attribute.is_found || attribute.name == "long_name") return;
+    if (attribute.is_computed || attribute.name == "long_name") return;
     std::visit([&](const auto& value) { set(attribute.name, value); }, attribute.value);
   }
 
@@ -30,10 +30,10 @@ class ExpectedAttributes {
     object_.integers[name].assign(values.begin(), values.end());
   }
   void set(const std::string& /*name*/, const std::vector<FieldFlag>& flags) {
-    std::string& words = object_.texts["flag_meanings"];
+    std::string& meanings = object_.texts["flag_meanings"];
     for (const FieldFlag& flag : flags) {
       object_.integers["flag_values"].push_back(flag.value);
-      words += (words.empty() ? "" : " ") + flag.word;
+      meanings += (meanings.empty() ? "" : " ") + flag.meaning;
     }
   }
 
@@ -59,8 +59,8 @@ StoredObject expected_object(const Field& field) {
   return object;
 }
 
-bool same_integers(const std::vector<std::int64_t>& expected, const std::vector<std::int64_t>& found) {
-  return std::equal(expected.begin(), expected.end(), found.begin(), found.end(),
+bool same_integers(const std::vector<std::int64_t>& expected, const std::vector<std::int64_t>& actual) {
+  return std::equal(expected.begin(), expected.end(), actual.begin(), actual.end(),
                     [](std::int64_t a, std::int64_t b) {
                       return a == b || (a == kLargestValue && (b == INT16_MAX || b == INT32_MAX));
                     });
@@ -68,26 +68,26 @@ bool same_integers(const std::vector<std::int64_t>& expected, const std::vector<
 
 class ObjectComparison {
  public:
-  void compare(const StoredObject& expected, const StoredObject& found) {
+  void compare(const StoredObject& expected, const StoredObject& actual) {
     path_ = expected.path;
     for (const auto& [name, text] : expected.texts) {
-      const auto match_found = found.texts.find(name);
-      note(name, match_found != found.texts.end() && match_found->second == text);
+      const auto match = actual.texts.find(name);
+      note(name, match != actual.texts.end() && match->second == text);
     }
     for (const auto& [name, values] : expected.integers) {
-      const auto match_found = found.integers.find(name);
-      note(name, match_found != found.integers.end() && same_integers(values, match_found->second));
+      const auto match = actual.integers.find(name);
+      note(name, match != actual.integers.end() && same_integers(values, match->second));
     }
     for (const auto& [name, values] : expected.numbers) {
-      const auto match_found = found.numbers.find(name);
-      note(name, match_found != found.numbers.end() && match_found->second == values);
+      const auto match = actual.numbers.find(name);
+      note(name, match != actual.numbers.end() && match->second == values);
     }
-    note("DIMENSION_LIST", expected.axes == found.axes);
-    note("CLASS", expected.is_scale == found.is_scale);
+    note("DIMENSION_LIST", expected.axes == actual.axes);
+    note("CLASS", expected.is_scale == actual.is_scale);
     // An axis without coordinates has its length behind the words.
-    note("NAME", found.scale_name.compare(0, expected.scale_name.size(), expected.scale_name) == 0);
-    if (!found.is_blank) note("its elements", false);
-    if (expected.is_scale) remember_dimension(found);
+    note("NAME", actual.scale_name.compare(0, expected.scale_name.size(), expected.scale_name) == 0);
+    if (!actual.is_blank) note("its elements", false);
+    if (expected.is_scale) remember_dimension(actual);
   }
 
   [[nodiscard]] Finding finding() {
@@ -128,9 +128,9 @@ std::vector<StoredObject> expected_objects(const ProblemSpec& spec, const Fields
   return objects;
 }
 
-Finding check_objects(const std::vector<StoredObject>& expected, const std::vector<StoredObject>& found) {
+Finding check_objects(const std::vector<StoredObject>& expected, const std::vector<StoredObject>& actual) {
   ObjectComparison comparison;
-  for (std::size_t i = 0; i < expected.size(); ++i) comparison.compare(expected[i], found[i]);
+  for (std::size_t i = 0; i < expected.size(); ++i) comparison.compare(expected[i], actual[i]);
   return comparison.finding();
 }
 

@@ -279,7 +279,7 @@ void FlowExtremes::follow(const Influence& influence, std::size_t state, bool gr
   Arb excess;
   for (std::size_t j = 0; j < states_.size(); ++j) {
     const EndChoice choice = choose_for_extreme(box_[states_[j]], influence.of_start(state, j), greatest);
-    extreme.start[states_[j]] = choice.place;
+    extreme.start[states_[j]] = choice.point;
     extreme.excess[j] = choice.excess.approximately();
     excess = excess + choice.excess;
   }
@@ -289,7 +289,7 @@ void FlowExtremes::follow(const Influence& influence, std::size_t state, bool gr
     for (std::size_t l = 0; l < disturbances_.size(); ++l) {
       EndChoice choice = choose_for_extreme(box_[disturbances_[l]], of_disturbance(state, l), greatest);
       excess = excess + choice.excess * step_;
-      now.push_back(std::move(choice.place));
+      now.push_back(std::move(choice.point));
     }
   }
   for (std::size_t l = 0; l < disturbances_.size() && !signal.empty(); ++l)

@@ -12,7 +12,7 @@ namespace coordreq {
 
 /// The values of all states of x' = f(x, w) after a period, or after some of its steps.
 ///
-/// 1. A tube of all solutions (enclose_flow()), and with it bounds. Where more effort is asked for it is
+/// 1. A tube of all solutions (enclose_flow()), and with it bounds. Where more effort is required it is
 /// narrowed
 ///    around the solution from the middle by the mean value theorem of 2.
 /// 2. Two solutions x, y for different starts and disturbances v, w differ by e with e' = A(t) e + B(t) (v -

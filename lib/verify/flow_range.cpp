@@ -20,19 +20,19 @@ class RangeFinder {
         flow_(flow),
         state_(state),
         box_(box),
-        own_(field_.variables()[state]),
+        variable_(field_.variables()[state]),
         share_(flow.duration_of_step()) {
-    result_.lower = box[own_].lower.lower();
-    result_.upper = box[own_].upper.upper();
+    result_.lower = box[variable_].lower.lower();
+    result_.upper = box[variable_].upper.upper();
   }
 
   FlowRange run() {
     const std::vector<TubeStep>& steps = flow_.steps();
     for (std::size_t begin = 0, end = 0; begin < steps.size(); begin = end) {
-      const int way = direction(change(begin));
+      const int trend = direction(change(begin));
       end = begin + 1;
-      while (way != 2 && end < steps.size() && direction(change(end)) == way) ++end;
-      visit(begin, end, way);
+      while (trend != 2 && end < steps.size() && direction(change(end)) == trend) ++end;
+      visit(begin, end, trend);
     }
     result_.stays_above_start = keeps(1) || is_wall(false);
     result_.stays_below_start = keeps(-1) || is_wall(true);
@@ -42,9 +42,9 @@ class RangeFinder {
  private:
   [[nodiscard]] const Arb& change(std::size_t step) const { return flow_.steps()[step].change[state_]; }
 
-  void visit(std::size_t begin, std::size_t end, int way) {
-    if (way == 0) return;
-    if (way == 2) {
+  void visit(std::size_t begin, std::size_t end, int trend) {
+    if (trend == 0) return;
+    if (trend == 2) {
       const Arb moved = share_ * change(begin);
       look(begin, moved.lower(), moved.upper());
     }
@@ -64,11 +64,11 @@ class RangeFinder {
           result_.high ? greater(*result_.high, greatest.attained->lower()) : greatest.attained->lower();
   }
 
-  [[nodiscard]] bool keeps(int way) const {
+  [[nodiscard]] bool keeps(int trend) const {
     const std::vector<TubeStep>& steps = flow_.steps();
     return std::all_of(steps.begin(), steps.end(), [&](const TubeStep& step) {
-      const int own = direction(step.change[state_]);
-      return own == 0 || own == way;
+      const int sign = direction(step.change[state_]);
+      return sign == 0 || sign == trend;
     });
   }
 
@@ -77,10 +77,11 @@ class RangeFinder {
   [[nodiscard]] bool is_wall(bool above) {
     return std::all_of(flow_.steps().begin(), flow_.steps().end(), [&](const TubeStep& step) {
       ArbBox beyond = step.tube;
-      beyond[own_] = above ? hull(box_[own_].upper, greater(box_[own_].upper, step.tube[own_].upper()))
-                           : hull(box_[own_].lower, lesser(box_[own_].lower, step.tube[own_].lower()));
-      const Arb own = field_.value(state_, beyond);
-      return own.is_finite() && (above ? own.is_nonpositive() : own.is_nonnegative());
+      beyond[variable_] =
+          above ? hull(box_[variable_].upper, greater(box_[variable_].upper, step.tube[variable_].upper()))
+                : hull(box_[variable_].lower, lesser(box_[variable_].lower, step.tube[variable_].lower()));
+      const Arb trend = field_.value(state_, beyond);
+      return trend.is_finite() && (above ? trend.is_nonpositive() : trend.is_nonnegative());
     });
   }
 
@@ -88,7 +89,7 @@ class RangeFinder {
   FlowExtremes& flow_;
   std::size_t state_;
   const SpanBox& box_;
-  std::uint32_t own_;
+  std::uint32_t variable_;
   const Arb& share_;
   FlowRange result_;
 };

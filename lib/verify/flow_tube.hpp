@@ -16,7 +16,7 @@ struct TubeStep {
   /// Derivatives of f by x and w, all over the tube; none where f jumps, or a state may be held.
   std::optional<ArbMatrix> slopes;
   SpanBox end;  ///< holds all solutions at its end
-  /// Transition matrix of the states over the step, once it has been asked for.
+  /// Transition matrix of the states over the step, once it has been needed.
   std::optional<ArbMatrix> transition = {};
 };
 

@@ -31,7 +31,7 @@ Extreme mean_value_extreme(SeriesField& field, std::size_t equation, const SpanB
     EndChoice choice = choose_for_extreme(box[slot], slopes[j], greatest);
     result.excess.push_back(choice.excess.approximately());
     excess = excess + choice.excess;
-    result.start[slot] = std::move(choice.place);
+    result.start[slot] = std::move(choice.point);
   }
   const Arb value = field.value(equation, result.start);
   if (value.is_finite()) result.attained = value;

@@ -24,7 +24,7 @@ class MapExtremes : public NextValue {
   SeriesField map_;
   SpanBox box_;
   Arb natural_;                             ///< the range over it
-  std::optional<std::vector<Arb>> slopes_;  ///< if they were asked for
+  std::optional<std::vector<Arb>> slopes_;  ///< if they were needed
 };
 
 /// The extreme of one equation of a vector field over a box.

@@ -51,7 +51,7 @@ class NextValue {
   [[nodiscard]] virtual bool enclose(const SpanBox& box, const Effort& effort) = 0;
   /// The extremes of the value over the box enclosed last.
   /// @param value which of several
-  /// @param enough tells whether a range that is found first, with less effort, will do
+  /// @param enough says whether a range that is found first, with less effort, will do
   using Enough = std::function<bool(const Arb& lower, const Arb& upper)>;
   [[nodiscard]] virtual Extremes extremes(std::size_t value, const Enough& enough) = 0;
   /// Whether values from the box enclosed last are nowhere farther than those from its faces.
@@ -62,13 +62,13 @@ class NextValue {
   [[nodiscard]] virtual Work work() const = 0;
   /// From now on no more than so much is done; what is begun then ends without a bound.
   virtual void limit_work(Work most) = 0;
-  /// Whether that ended what was asked last.
+  /// Whether that ended the last query.
   [[nodiscard]] virtual bool is_spent() const = 0;
 };
 
 /// The place that is taken for the extreme along a variable, and the excess of other places.
 struct EndChoice {
-  Arb place;   ///< a point of the span
+  Arb point;   ///< a point of the span
   Arb excess;  ///< not negative: how far values for other places are beyond
 };
 /// @param slope of the value by the variable, all over the span

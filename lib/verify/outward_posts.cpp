@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "answers/checking/posts.hpp"
 #include "model/odometer.hpp"
 #include "spec/system_spec.hpp"
@@ -84,11 +84,11 @@ class OutwardPosts {
     std::vector<std::unique_ptr<PostProver>> provers(static_cast<std::size_t>(team.size()));
     for (std::size_t round = 0; round < std::size(kRounds) && !open_.empty(); ++round) {
       is_last_ = round + 1 == std::size(kRounds);
-      const auto tell = [&](std::size_t settled) {
+      const auto report = [&](std::size_t settled) {
         if (progress) progress(all - open_.size() + settled, all);
       };
-      tell(0);
-      run_round(kRounds[round], budget, provers, tell, team);
+      report(0);
+      run_round(kRounds[round], budget, provers, report, team);
     }
     budget.leave_open(left_open_);
     std::vector<Finding> findings;
@@ -105,7 +105,7 @@ class OutwardPosts {
   /// A part of one of the boxes of a choice, which has open claims.
   struct Left {
     std::int64_t box = 0;
-    OpenPart part;
+    OpenSubbox subbox;
   };
   /// A choice of indices, and which of its claims are settled: bits, as far as they go.
   struct Open {
@@ -123,7 +123,7 @@ class OutwardPosts {
   /// A claim and the places of its table's entries that make it.
   struct Claimed {
     PostClaim claim;
-    std::vector<std::int64_t> places;
+    std::vector<std::int64_t> positions;
   };
 
   [[nodiscard]] std::vector<Open> open_choices() const {
@@ -133,7 +133,7 @@ class OutwardPosts {
   }
 
   void run_round(const PostEffort& effort, Budget& budget, std::vector<std::unique_ptr<PostProver>>& provers,
-                 const std::function<void(std::size_t settled)>& tell, ThreadTeam& team) {
+                 const std::function<void(std::size_t settled)>& report, ThreadTeam& team) {
     std::vector<std::uint8_t> still_open(open_.size());
     const auto count = static_cast<std::int64_t>(open_.size());
     const std::int64_t block = effort.most_boxes == 1 ? 1024 : 64;
@@ -144,16 +144,16 @@ class OutwardPosts {
       for (; looked_at < some; ++looked_at) {
         std::unique_ptr<std::vector<Left>>& left = open_[static_cast<std::size_t>(looked_at)].left;
         if (left) bytes += bytes_of(*left);
-        if (static_cast<double>(bytes) > kMostBytesOfOpenParts) left.reset();  // is begun anew
+        if (static_cast<double>(bytes) > kMostBytesOfOpenSubboxes) left.reset();  // is begun anew
       }
-      tell(static_cast<std::size_t>(std::count(still_open.begin(), still_open.begin() + some, 0)));
+      report(static_cast<std::size_t>(std::count(still_open.begin(), still_open.begin() + some, 0)));
     };
     const auto answer = [&](std::int64_t i, Work most, int worker) {
       auto& prover = provers[static_cast<std::size_t>(worker)];
       if (!prover) prover = std::make_unique<PostProver>(spec_, grid_, group_);
       const Work before = prover->work();
-      const auto place = static_cast<std::size_t>(i);
-      still_open[place] = settle(open_[place], effort, {most, of_begun}, *prover) ? 0 : 1;
+      const auto index = static_cast<std::size_t>(i);
+      still_open[index] = settle(open_[index], effort, {most, of_begun}, *prover) ? 0 : 1;
       return prover->work() - before;
     };
     answer_within(budget, count, block, team, answer, answered);
@@ -167,28 +167,28 @@ class OutwardPosts {
   /// @returns false if it is to be tried again
   bool settle(Open& open, const PostEffort& effort, Share share, PostProver& prover) {
     const Odometer choice(choices_.counts(), open.choice);
-    const bool over = share.most == 0;
+    const bool is_spent = share.most == 0;
     const std::vector<Claimed> all = claims_of(choice);
     std::vector<PostClaim> claims;
-    std::vector<std::uint32_t> asked;
+    std::vector<std::uint32_t> unsettled;
     for (std::size_t c = 0; c < all.size(); ++c) {
       claims.push_back(all[c].claim);
-      if (!open.has_settled(c)) asked.push_back(static_cast<std::uint32_t>(c));
+      if (!open.has_settled(c)) unsettled.push_back(static_cast<std::uint32_t>(c));
     }
-    if (asked.empty()) return true;
+    if (unsettled.empty()) return true;
     const std::vector<PostProof> proofs =
-        over ? std::vector<PostProof>(all.size(), {PostVerdict::open, "the budget ended"})
-             : prove(choice, claims, asked, open, effort, share, prover);
+        is_spent ? std::vector<PostProof>(all.size(), {PostVerdict::open, "the budget ended"})
+                 : prove(choice, claims, unsettled, open, effort, share, prover);
     bool settled = true;
-    for (const std::uint32_t c : asked) {
-      if (proofs[c].verdict == PostVerdict::open && !over && !is_last_) {
+    for (const std::uint32_t c : unsettled) {
+      if (proofs[c].verdict == PostVerdict::open && !is_spent && !is_last_) {
         settled = false;
         continue;
       }
       open.settle(c);
-      const bool is_cut_off = over || (proofs[c].verdict == PostVerdict::open && proofs[c].is_cut_off);
-      if (is_cut_off) left_open_ += static_cast<std::int64_t>(all[c].places.size());
-      for (const std::int64_t place : all[c].places) note(all[c].claim.target, place, proofs[c]);
+      const bool is_cut_off = is_spent || (proofs[c].verdict == PostVerdict::open && proofs[c].is_cut_off);
+      if (is_cut_off) left_open_ += static_cast<std::int64_t>(all[c].positions.size());
+      for (const std::int64_t position : all[c].positions) note(all[c].claim.target, position, proofs[c]);
     }
     return settled;
   }
@@ -196,8 +196,8 @@ class OutwardPosts {
   [[nodiscard]] static std::size_t bytes_of(const std::vector<Left>& left) {
     std::size_t bytes = left.capacity() * sizeof(Left);
     for (const Left& one : left)
-      bytes += one.part.cuts.capacity() * sizeof(std::uint16_t) +
-               one.part.claims.capacity() * sizeof(std::uint32_t) + kBytesOfAllocations;
+      bytes += one.subbox.cuts.capacity() * sizeof(std::uint16_t) +
+               one.subbox.claims.capacity() * sizeof(std::uint32_t) + kBytesOfAllocations;
     return bytes;
   }
 
@@ -208,16 +208,17 @@ class OutwardPosts {
     for (std::size_t t = 0; t < group_.states.size(); ++t) {
       const std::size_t first = result.size();
       for (std::int64_t k = 0; k < copies(); ++k) {
-        const std::int64_t place = base + (group_.shifts ? k * table(t).state_stride[group_.states[t]] : 0);
-        const std::optional<std::size_t> entry = table(t).find(place);
-        if (!entry || is_given_up(place)) continue;
+        const std::int64_t position =
+            base + (group_.shifts ? k * table(t).state_stride[group_.states[t]] : 0);
+        const std::optional<std::size_t> entry = table(t).find(position);
+        if (!entry || is_given_up(position)) continue;
         const IndexRange range = back(table(t).entries[*entry], k);
         const auto known = std::find_if(result.begin() + static_cast<std::ptrdiff_t>(first), result.end(),
                                         [&](const Claimed& one) { return one.claim.range == range; });
         if (known != result.end()) {
-          known->places.push_back(place);
+          known->positions.push_back(position);
         } else {
-          result.push_back({{t, range}, {place}});
+          result.push_back({{t, range}, {position}});
         }
       }
     }
@@ -225,9 +226,9 @@ class OutwardPosts {
   }
 
   /// A state that is said to end anywhere leaves its domain, so that there is no post: nothing is claimed.
-  [[nodiscard]] bool is_given_up(std::int64_t place) const {
+  [[nodiscard]] bool is_given_up(std::int64_t position) const {
     for (std::size_t t = 0; t < group_.states.size(); ++t) {
-      const IndexRange range = table(t).at(place);
+      const IndexRange range = table(t).at(position);
       const bool anywhere = range.first == INT32_MIN && range.last == INT32_MAX;
       if (anywhere && after_leaving(range, grid_[group_.states[t]]).blocked) return true;
     }
@@ -243,7 +244,7 @@ class OutwardPosts {
 
   /// Goes on with the parts that were left.
   [[nodiscard]] std::vector<PostProof> prove(const Odometer& choice, const std::vector<PostClaim>& claims,
-                                             const std::vector<std::uint32_t>& asked, Open& open,
+                                             const std::vector<std::uint32_t>& unsettled, Open& open,
                                              const PostEffort& effort, Share share,
                                              PostProver& prover) const {
     const std::unique_ptr<std::vector<Left>> before =
@@ -254,21 +255,21 @@ class OutwardPosts {
     const Work begun = prover.work();
     choices_.for_each_piece(choice, slots, [&](const Odometer&) {
       ++box;
-      std::vector<OpenPart> parts;
+      std::vector<OpenSubbox> subboxes;
       if (!before) {
-        parts.push_back({.cuts = {}, .claims = asked});
+        subboxes.push_back({.cuts = {}, .claims = unsettled});
       } else {
         for (const Left& one : *before) {
-          if (one.box == box) parts.push_back(one.part);
+          if (one.box == box) subboxes.push_back(one.subbox);
         }
       }
       const Work used = prover.work() - begun;
       const Work left = std::max<Work>(share.most - used, 0);
       const Work beyond = std::clamp<Work>(share.most + share.of_begun - used, 0, share.of_begun);
-      std::vector<PostProof> proofs = prover.prove(slots, claims, parts, effort, left, beyond);
-      for (OpenPart& part : parts) open.left->push_back({box, std::move(part)});
+      std::vector<PostProof> proofs = prover.prove(slots, claims, subboxes, effort, left, beyond);
+      for (OpenSubbox& subbox : subboxes) open.left->push_back({box, std::move(subbox)});
       bool all_wrong = true;
-      for (const std::uint32_t c : asked) {
+      for (const std::uint32_t c : unsettled) {
         if (proofs[c].verdict != PostVerdict::holds && worst[c].verdict != PostVerdict::wrong) {
           proofs[c].is_cut_off = proofs[c].is_cut_off || worst[c].is_cut_off;
           worst[c] = std::move(proofs[c]);
@@ -277,27 +278,27 @@ class OutwardPosts {
       }
       return !all_wrong;
     });
-    const auto is_whole = [](const Left& one) { return one.part.cuts.empty(); };
+    const auto is_whole = [](const Left& one) { return one.subbox.cuts.empty(); };
     if (std::ranges::all_of(*open.left, is_whole) && box <= 0) open.left.reset();
     return worst;
   }
 
-  void note(std::size_t target, std::int64_t place, const PostProof& proof) {
+  void note(std::size_t target, std::int64_t position, const PostProof& proof) {
     const GridDimension& dimension = grid_[group_.states[target]];
-    const IndexRange range = table(target).at(place);
+    const IndexRange range = table(target).at(position);
     const bool has_limits = with_measurements_at_limits(dimension, spec_.abstraction.cells, range) == range;
-    const auto where = [&] { return entry_text(grid_, inputs_, table(target), place); };
+    const auto where = [&] { return entry_text(grid_, inputs_, table(target), position); };
     const auto describe = [&] {
       return fmt::format("{}: {} {}, but {}", where(), dimension.name, range_text(dimension, range),
                          has_limits ? proof.why : "without the cells that may be measured at a limit");
     };
     Tally& tally = tallies_[target];
     if (range.first > range.last) {
-      tally.add_wrong(place, [&] { return where() + ": no cell at all"; });
+      tally.add_wrong(position, [&] { return where() + ": no cell at all"; });
     } else if (proof.verdict == PostVerdict::wrong) {
-      tally.add_wrong(place, describe);
+      tally.add_wrong(position, describe);
     } else if (proof.verdict == PostVerdict::open || !has_limits) {
-      tally.add_unproven(place, describe);
+      tally.add_unproven(position, describe);
     }
   }
 
@@ -317,7 +318,7 @@ class OutwardPosts {
   bool is_last_ = false;
 };
 
-bool can_be_asked(const PostQuestion& question, const Influences& influences) {
+bool can_be_enclosed(const PostQuestion& question, const Influences& influences) {
   const PostTable shape = empty_table(*question.grid, *question.inputs, influences, *question.cells);
   return question.claimed->states == shape.states && question.claimed->inputs == shape.inputs &&
          question.claimed->entries.size() == shape.entries.size();
@@ -337,15 +338,15 @@ std::vector<std::optional<Finding>> check_outward_posts(const std::vector<PostQu
     if (done[q]) continue;
     const SystemSpec& spec = *questions[q].spec;
     PostGroup group{.states = {}, .influences = influences_on(spec, questions[q].state)};
-    if (!can_be_asked(questions[q], group.influences)) continue;
+    if (!can_be_enclosed(questions[q], group.influences)) continue;
     group.shifts = follows_itself(questions[q], group.influences);
     const bool alone = group.shifts || spec.dynamics.time == Time::discrete;
-    std::vector<std::size_t>& places = members.emplace_back();
+    std::vector<std::size_t>& positions = members.emplace_back();
     for (std::size_t other = q; other < (alone ? q + 1 : questions.size()); ++other) {
       if (!(influences_on(spec, questions[other].state) == group.influences)) continue;
-      if (!can_be_asked(questions[other], group.influences)) continue;
+      if (!can_be_enclosed(questions[other], group.influences)) continue;
       done[other] = true;
-      places.push_back(other);
+      positions.push_back(other);
       group.states.push_back(questions[other].state);
     }
     groups.push_back(std::move(group));
@@ -354,12 +355,12 @@ std::vector<std::optional<Finding>> check_outward_posts(const std::vector<PostQu
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::vector<PostQuestion> together;
     for (const std::size_t q : members[g]) together.push_back(questions[q]);
-    const auto own = static_cast<std::int64_t>(together.front().claimed->entries.size());
-    Budget part = budget.part(own, entries);
+    const auto count = static_cast<std::int64_t>(together.front().claimed->entries.size());
+    Budget fraction = budget.fraction(count, entries);
     std::vector<Finding> found =
-        OutwardPosts(std::move(together), std::move(groups[g])).run(part, progress, team);
-    budget.settle(part);
-    entries -= own;
+        OutwardPosts(std::move(together), std::move(groups[g])).run(fraction, progress, team);
+    budget.settle(fraction);
+    entries -= count;
     for (std::size_t k = 0; k < found.size(); ++k) findings[members[g][k]] = std::move(found[k]);
   }
   return findings;

@@ -24,12 +24,12 @@ struct PostQuestion {
   std::string check;                                 ///< name of the finding
 };
 
-/// Is told how many posts of all are settled, on the thread of the caller. May be empty.
+/// Receives how many posts of all are settled, on the thread of the caller. May be empty.
 using PostProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Parts of cells that are left for the next round take at most so many bytes together, and as many again
 /// while it goes on.
-inline constexpr double kMostBytesOfOpenParts = 1024.0 * 1024;
+inline constexpr double kMostBytesOfOpenSubboxes = 1024.0 * 1024;
 
 /// Proves the entries of states' tables by enclosures in ball arithmetic: a little work for all, then more
 /// and more for those that do not fit, until the budget ends. What follows its own present value is proven

@@ -11,7 +11,7 @@
 #include "model/odometer.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/system_spec.hpp"
-#include "verify/own_posts.hpp"
+#include "verify/reference_posts.hpp"
 
 namespace coordreq {
 
@@ -67,34 +67,34 @@ class CellsOfTable {
   /// @pre unchecked: all outlive this object.
   CellsOfTable(const UniformGrid& grid, const Influences& influences, const PostTable& table)
       : grid_(grid), influences_(influences), table_(table) {
-    for (const std::int64_t place : table.places) {
-      std::int64_t base = place;
-      for (const std::size_t j : influences.moving) base -= index_of(place, j) * table.state_stride[j];
-      places_[base].push_back(place);
+    for (const std::int64_t position : table.positions) {
+      std::int64_t base = position;
+      for (const std::size_t j : influences.moving) base -= index_of(position, j) * table.state_stride[j];
+      positions_[base].push_back(position);
     }
   }
 
   /// Calls `visit(indices of the moving states, place)` for each.
   /// @param base as ParameterChoices::position()
-  /// @param left_out a state whose index is not told, but 0: one visit for all of them
+  /// @param left_out a state whose index is not passed, but 0: one visit for all of them
   template <class Visit>
   void for_each(std::int64_t base, std::optional<std::size_t> left_out, const Visit& visit) const {
-    if (table_.places.empty()) return for_all(base, left_out, visit);
-    const auto places = places_.find(base);
-    if (places == places_.end()) return;
+    if (table_.positions.empty()) return for_all(base, left_out, visit);
+    const auto positions = positions_.find(base);
+    if (positions == positions_.end()) return;
     std::set<std::int64_t> visited;
-    for (std::int64_t place : places->second) {
+    for (std::int64_t position : positions->second) {
       std::vector<std::int64_t> indices;
       for (const std::size_t j : influences_.moving)
-        indices.push_back(j == left_out ? 0 : index_of(place, j));
-      if (left_out) place -= index_of(place, *left_out) * table_.state_stride[*left_out];
-      if (visited.insert(place).second) visit(indices, place);
+        indices.push_back(j == left_out ? 0 : index_of(position, j));
+      if (left_out) position -= index_of(position, *left_out) * table_.state_stride[*left_out];
+      if (visited.insert(position).second) visit(indices, position);
     }
   }
 
  private:
-  [[nodiscard]] std::int64_t index_of(std::int64_t place, std::size_t state) const {
-    return place / table_.state_stride[state] % grid_[state].count;
+  [[nodiscard]] std::int64_t index_of(std::int64_t position, std::size_t state) const {
+    return position / table_.state_stride[state] % grid_[state].count;
   }
 
   template <class Visit>
@@ -103,17 +103,17 @@ class CellsOfTable {
     for (const std::size_t j : influences_.moving) counts.push_back(j == left_out ? 1 : grid_[j].count);
     Odometer cell(counts);
     do {
-      std::int64_t place = base;
+      std::int64_t position = base;
       for (std::size_t j = 0; j < counts.size(); ++j)
-        place += cell[j] * table_.state_stride[influences_.moving[j]];
-      visit(cell.indices(), place);
+        position += cell[j] * table_.state_stride[influences_.moving[j]];
+      visit(cell.indices(), position);
     } while (cell.advance());
   }
 
   const UniformGrid& grid_;
   const Influences& influences_;
   const PostTable& table_;
-  std::map<std::int64_t, std::vector<std::int64_t>> places_;  ///< [base], if some are left out
+  std::map<std::int64_t, std::vector<std::int64_t>> positions_;  ///< [base], if some are left out
 };
 
 }  // namespace coordreq

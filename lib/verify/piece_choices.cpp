@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 #include "base/requires.hpp"
 #include "spec/system_spec.hpp"
 
@@ -16,7 +16,7 @@ std::vector<std::vector<ArbSpan>> boxes_in(const GridDimension& dimension) {
   std::vector<std::vector<ArbSpan>> result;
   for (std::int64_t k = 0; k < dimension.count; ++k) {
     auto& boxes = result.emplace_back();
-    for (const RationalInterval& piece : parts_of(dimension, k))
+    for (const RationalInterval& piece : pieces_of(dimension, k))
       boxes.push_back(span_of(piece.lower, piece.upper));
   }
   return result;
@@ -54,11 +54,11 @@ bool has_stops(const SystemSpec& spec, const Influences& influences) {
 }
 
 bool flows_alike(const SystemSpec& spec, const Influences& influences, std::size_t state) {
-  const std::uint32_t own = spec.state_slot(state);
+  const std::uint32_t slot = spec.state_slot(state);
   if (stops(spec.states[state])) return false;
   return std::none_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t j) {
     const std::vector<std::uint32_t> used = spec.dynamics.equations[j].variables();
-    return std::find(used.begin(), used.end(), own) != used.end();
+    return std::find(used.begin(), used.end(), slot) != used.end();
   });
 }
 

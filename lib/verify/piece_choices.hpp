@@ -9,7 +9,7 @@
 #include "numeric/rational.hpp"
 #include "spec/spec_types.hpp"
 #include "verify/next_value.hpp"
-#include "verify/own_posts.hpp"
+#include "verify/reference_posts.hpp"
 
 namespace coordreq {
 

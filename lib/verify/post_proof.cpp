@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/checks.hpp"
 #include "verify/flow_extremes.hpp"
 #include "verify/map_extremes.hpp"
-#include "verify/own_posts.hpp"
+#include "verify/reference_posts.hpp"
 
 namespace coordreq {
 namespace {
@@ -35,9 +35,9 @@ constexpr std::size_t kMostCuts = 40;
 constexpr const char* kNoWorkLeft = "its share of the budget ended";
 
 /// Moves the claims that are not proven elsewhere to what is left: those that are open there.
-void leave(OpenPart& part, const std::vector<PostProof>& proofs, std::vector<OpenPart>& left) {
-  OpenPart rest{.cuts = part.cuts, .claims = {}};
-  std::erase_if(part.claims, [&](std::uint32_t c) {
+void leave(OpenSubbox& subbox, const std::vector<PostProof>& proofs, std::vector<OpenSubbox>& left) {
+  OpenSubbox rest{.cuts = subbox.cuts, .claims = {}};
+  std::erase_if(subbox.claims, [&](std::uint32_t c) {
     if (proofs[c].verdict == PostVerdict::open) rest.claims.push_back(c);
     return proofs[c].verdict != PostVerdict::holds;
   });
@@ -67,41 +67,41 @@ PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const Po
 /// left, with all others for the claims that are open on it: these are not proven this time. The next time it
 /// comes first, so that what has no chance costs one enclosure.
 std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
-                                         std::vector<OpenPart>& parts, const PostEffort& effort, Work most,
-                                         Work beyond) {
+                                         std::vector<OpenSubbox>& subboxes, const PostEffort& effort,
+                                         Work most, Work beyond) {
   const Work end = work() + most;
   const Work last = end + beyond;
   std::vector<PostProof> proofs(claims.size());
   std::vector<Piece> pending;
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part)
-    pending.push_back(piece_of(box, std::move(*part)));
-  parts.clear();
+  for (auto subbox = subboxes.rbegin(); subbox != subboxes.rend(); ++subbox)
+    pending.push_back(piece_of(box, std::move(*subbox)));
+  subboxes.clear();
   for (int boxes = 1; !pending.empty(); ++boxes) {
     Piece piece = std::move(pending.back());
     pending.pop_back();
-    leave(piece.part, proofs, parts);
-    if (piece.part.claims.empty()) continue;
+    leave(piece.subbox, proofs, subboxes);
+    if (piece.subbox.claims.empty()) continue;
     if (work() >= last) {
-      for (const std::uint32_t c : piece.part.claims) proofs[c] = {PostVerdict::open, kNoWorkLeft, true};
-      leave(piece.part, proofs, parts);
+      for (const std::uint32_t c : piece.subbox.claims) proofs[c] = {PostVerdict::open, kNoWorkLeft, true};
+      leave(piece.subbox, proofs, subboxes);
       continue;
     }
     const bool has_cuts =
-        boxes + static_cast<int>(pending.size()) < effort.most_boxes && piece.part.cuts.size() < kMostCuts;
+        boxes + static_cast<int>(pending.size()) < effort.most_boxes && piece.subbox.cuts.size() < kMostCuts;
     const bool may_cut = has_cuts && work() < end;
-    std::vector<PostProof> own(claims.size());
+    std::vector<PostProof> results(claims.size());
     next_->limit_work(last - work());
-    const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
-    std::erase_if(piece.part.claims, [&](std::uint32_t c) {
-      const bool is_open = own[c].verdict == PostVerdict::open;
-      if (is_open && next_->is_spent()) own[c].why = kNoWorkLeft;
-      own[c].is_cut_off = is_open && (next_->is_spent() || (cut && has_cuts && !may_cut));
-      if (own[c].verdict == PostVerdict::wrong || (is_open && !(may_cut && cut))) proofs[c] = own[c];
+    const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, results);
+    std::erase_if(piece.subbox.claims, [&](std::uint32_t c) {
+      const bool is_open = results[c].verdict == PostVerdict::open;
+      if (is_open && next_->is_spent()) results[c].why = kNoWorkLeft;
+      results[c].is_cut_off = is_open && (next_->is_spent() || (cut && has_cuts && !may_cut));
+      if (results[c].verdict == PostVerdict::wrong || (is_open && !(may_cut && cut))) proofs[c] = results[c];
       return !is_open;
     });
-    leave(piece.part, proofs, parts);
-    if (piece.part.claims.empty()) continue;
-    for (Piece& next : parts_of(piece, *cut)) pending.push_back(std::move(next));
+    leave(piece.subbox, proofs, subboxes);
+    if (piece.subbox.claims.empty()) continue;
+    for (Piece& next : cut_pieces(piece, *cut)) pending.push_back(std::move(next));
   }
   return proofs;
 }
@@ -118,22 +118,22 @@ void PostProver::cut_off(Piece& piece, std::uint32_t slot, Cut cut) const {
     const Arb middle = span.middle();
     (cut == Cut::lower_half ? span.upper : span.lower) = middle;
   }
-  piece.part.cuts.push_back(static_cast<std::uint16_t>(kCuts * number + static_cast<std::size_t>(cut)));
+  piece.subbox.cuts.push_back(static_cast<std::uint16_t>(kCuts * number + static_cast<std::size_t>(cut)));
 }
 
-PostProver::Piece PostProver::piece_of(const SpanBox& box, OpenPart part) const {
-  Piece piece{box, {.cuts = {}, .claims = std::move(part.claims)}};
-  for (const std::uint16_t code : part.cuts)
+PostProver::Piece PostProver::piece_of(const SpanBox& box, OpenSubbox subbox) const {
+  Piece piece{box, {.cuts = {}, .claims = std::move(subbox.claims)}};
+  for (const std::uint16_t code : subbox.cuts)
     cut_off(piece, next_->divisible()[code / kCuts], static_cast<Cut>(code % kCuts));
   return piece;
 }
 
 /// Faces of a piece where all extremes are on these, else its halves.
-std::vector<PostProver::Piece> PostProver::parts_of(const Piece& piece, std::uint32_t cut) const {
-  std::vector<Piece> parts;
+std::vector<PostProver::Piece> PostProver::cut_pieces(const Piece& piece, std::uint32_t cut) const {
+  std::vector<Piece> subboxes;
   const auto add = [&](std::uint32_t slot, Cut kind) {
-    parts.push_back(piece);
-    cut_off(parts.back(), slot, kind);
+    subboxes.push_back(piece);
+    cut_off(subboxes.back(), slot, kind);
   };
   if (next_->has_extremes_on_faces()) {
     for (const std::uint32_t slot : next_->divisible()) {
@@ -144,7 +144,7 @@ std::vector<PostProver::Piece> PostProver::parts_of(const Piece& piece, std::uin
     add(cut, Cut::upper_half);
     add(cut, Cut::lower_half);
   }
-  return parts;
+  return subboxes;
 }
 
 /// @returns what to cut where something is open
@@ -152,34 +152,34 @@ std::optional<std::uint32_t> PostProver::prove_piece(Piece& piece, const std::ve
                                                      const Effort& effort, std::vector<PostProof>& proofs) {
   const std::vector<std::uint32_t>& slots = next_->divisible();
   if (!next_->enclose(piece.box, effort)) {
-    for (const std::uint32_t c : piece.part.claims) proofs[c] = {PostVerdict::open, "no bound was found"};
+    for (const std::uint32_t c : piece.subbox.claims) proofs[c] = {PostVerdict::open, "no bound was found"};
     return widest(piece.box, std::vector<double>(slots.size()));
   }
   std::vector<double> excess(slots.size());
-  for (const std::uint32_t c : piece.part.claims) {
+  for (const std::uint32_t c : piece.subbox.claims) {
     const auto enough = [&](const Arb& lower, const Arb& upper) {
       return is_claimed(claims[c], lower, upper);
     };
-    const Extremes found = next_->extremes(values_[claims[c].target], enough);
-    proofs[c] = prove_claim(claims[c], found);
+    const Extremes extremes = next_->extremes(values_[claims[c].target], enough);
+    proofs[c] = prove_claim(claims[c], extremes);
     if (proofs[c].verdict != PostVerdict::open) continue;
-    for (const Extreme* extreme : {&found.least, &found.greatest}) {
+    for (const Extreme* extreme : {&extremes.least, &extremes.greatest}) {
       for (std::size_t j = 0; j < extreme->excess.size(); ++j) excess[j] += extreme->excess[j];
     }
   }
   return widest(piece.box, std::move(excess));
 }
 
-PostProof PostProver::prove_claim(const PostClaim& claim, const Extremes& found) const {
-  const Arb& lower = found.least.bound;
-  const Arb& upper = found.greatest.bound;
+PostProof PostProver::prove_claim(const PostClaim& claim, const Extremes& extremes) const {
+  const Arb& lower = extremes.least.bound;
+  const Arb& upper = extremes.greatest.bound;
   if (is_claimed(claim, lower, upper)) return {};
-  for (const Extreme* extreme : {&found.least, &found.greatest}) {
+  for (const Extreme* extreme : {&extremes.least, &extremes.greatest}) {
     if (std::optional<std::string> end = witness(claim, *extreme)) return {PostVerdict::wrong, *end};
   }
   if (!lower.is_finite() || !upper.is_finite()) return {PostVerdict::open, "no bound was found"};
-  const IndexRange own = cells_of(claim.target, lower, upper);
-  return {PostVerdict::open, fmt::format("only {} is proven", range_text(target(claim.target), own))};
+  const IndexRange proven = cells_of(claim.target, lower, upper);
+  return {PostVerdict::open, fmt::format("only {} is proven", range_text(target(claim.target), proven))};
 }
 
 bool PostProver::is_claimed(const PostClaim& claim, const Arb& lower, const Arb& upper) const {
@@ -188,26 +188,26 @@ bool PostProver::is_claimed(const PostClaim& claim, const Arb& lower, const Arb&
   return holds(target(claim.target), claim.range, cells_of(claim.target, lower, upper));
 }
 
-/// The cells met by values in a range, or if it is a difference by those from the cell with index 0.
+/// The cells that meet values in a range, or if it is a difference by those from the cell with index 0.
 IndexRange PostProver::cells_of(std::size_t i, const Arb& lower, const Arb& upper) const {
   const GridDimension& dimension = target(i);
   const Cells cells = spec_.abstraction.cells;
   const Rational least = lower.lower_rational();
   const Rational greatest = upper.upper_rational();
   if (!group_.shifts)
-    return cells_met(dimension, cells, least - dimension.measurement_error,
-                     greatest + dimension.measurement_error, true);
+    return meeting_cells(dimension, cells, least - dimension.measurement_error,
+                         greatest + dimension.measurement_error, true);
   const Rational reach = dimension.radius() + 2 * dimension.measurement_error;
-  return cells_met(dimension, cells, dimension.first - reach + least, dimension.first + reach + greatest,
-                   false);
+  return meeting_cells(dimension, cells, dimension.first - reach + least, dimension.first + reach + greatest,
+                       false);
 }
 
 /// A value is outside for certain if every closed cell that it may be in is.
 bool PostProver::misses(const PostClaim& claim, const Rational& lower, const Rational& upper) const {
   const GridDimension& dimension = target(claim.target);
-  const IndexRange met = cells_met(dimension, Cells::closed, lower, upper, true);
-  if (std::int64_t{met.last} - met.first > 3) return false;
-  for (std::int64_t k = met.first; k <= met.last; ++k) {
+  const IndexRange cells = meeting_cells(dimension, Cells::closed, lower, upper, true);
+  if (std::int64_t{cells.last} - cells.first > 3) return false;
+  for (std::int64_t k = cells.first; k <= cells.last; ++k) {
     const auto cell = static_cast<std::int32_t>(k);
     if (holds(dimension, claim.range, {cell, cell})) return false;
   }
@@ -245,9 +245,9 @@ std::optional<std::uint32_t> PostProver::widest(const SpanBox& box, std::vector<
   double most = 0.0;
   for (std::size_t j = 0; j < excess.size(); ++j) {
     const std::uint32_t slot = next_->divisible()[j];
-    const double own = excess[j] + 1e-6 * box[slot].width();
-    if (own <= most || box[slot].width() <= 0.0) continue;
-    most = own;
+    const double value = excess[j] + 1e-6 * box[slot].width();
+    if (value <= most || box[slot].width() <= 0.0) continue;
+    most = value;
     result = slot;
   }
   return result;

@@ -31,8 +31,8 @@ struct PostProof {
   bool is_cut_off = false;  ///< open, and there was no work left to go on
 };
 
-/// A part of a box, by the cuts that lead to it, and the claims that are open on it.
-struct OpenPart {
+/// A subbox, by the cuts that lead to it, and the claims that are open on it.
+struct OpenSubbox {
   std::vector<std::uint16_t> cuts;    ///< in the code of PostProver
   std::vector<std::uint32_t> claims;  ///< by number
 };
@@ -59,13 +59,14 @@ class PostProver {
   PostProver(const SystemSpec& spec, const UniformGrid& grid, const PostGroup& group);
 
   /// @param box where the present state can be
-  /// @param parts of the box on which claims are to be proven; is set to those on which they are still open.
+  /// @param subboxes of the box on which claims are to be proven; is set to those on which they are still
+  /// open.
   ///   A part without cuts is the whole box
   /// @param most work after which nothing is cut
   /// @param beyond work after that, for pieces that are not yet proven; then the rest is left
   /// @returns one a claim
   [[nodiscard]] std::vector<PostProof> prove(const SpanBox& box, const std::vector<PostClaim>& claims,
-                                             std::vector<OpenPart>& parts, const PostEffort& effort,
+                                             std::vector<OpenSubbox>& subboxes, const PostEffort& effort,
                                              Work most, Work beyond);
   /// Done so far.
   [[nodiscard]] Work work() const { return next_->work(); }
@@ -73,19 +74,19 @@ class PostProver {
  private:
   struct Piece {
     SpanBox box;
-    OpenPart part;
+    OpenSubbox subbox;
   };
   /// The part of the span of a variable that a cut leaves.
   enum class Cut : std::uint8_t { lower_face, upper_face, lower_half, upper_half };
 
   void cut_off(Piece& piece, std::uint32_t slot, Cut cut) const;
-  [[nodiscard]] Piece piece_of(const SpanBox& box, OpenPart part) const;
-  [[nodiscard]] std::vector<Piece> parts_of(const Piece& piece, std::uint32_t cut) const;
+  [[nodiscard]] Piece piece_of(const SpanBox& box, OpenSubbox subbox) const;
+  [[nodiscard]] std::vector<Piece> cut_pieces(const Piece& piece, std::uint32_t cut) const;
 
   [[nodiscard]] std::optional<std::uint32_t> prove_piece(Piece& piece, const std::vector<PostClaim>& claims,
                                                          const Effort& effort,
                                                          std::vector<PostProof>& proofs);
-  [[nodiscard]] PostProof prove_claim(const PostClaim& claim, const Extremes& found) const;
+  [[nodiscard]] PostProof prove_claim(const PostClaim& claim, const Extremes& extremes) const;
   [[nodiscard]] bool is_claimed(const PostClaim& claim, const Arb& lower, const Arb& upper) const;
   [[nodiscard]] IndexRange cells_of(std::size_t target, const Arb& lower, const Arb& upper) const;
   [[nodiscard]] std::optional<std::string> witness(const PostClaim& claim, const Extreme& extreme) const;

@@ -15,11 +15,11 @@ SafeBeyond::SafeBeyond(const ProblemSpec& spec, const UniformGrid& grid, const s
     : spec_(spec), grid_(grid) {
   if (spec.abstraction.safe == Membership::center) return;  // centres stay where they are
   std::vector<GridDimension> dimensions = grid.dimensions();
-  for (const std::uint32_t i : spec.safe.variables()) stretch(i, tubes[i], dimensions);
+  for (const std::uint32_t i : spec.safe.variables()) extend(i, tubes[i], dimensions);
   grid_ = UniformGrid(dimensions);
 }
 
-void SafeBeyond::stretch(std::size_t state, const PostTable& tube, std::vector<GridDimension>& dimensions) {
+void SafeBeyond::extend(std::size_t state, const PostTable& tube, std::vector<GridDimension>& dimensions) {
   GridDimension& dimension = dimensions[state];
   std::int64_t below = 0;
   std::int64_t above = 0;
@@ -35,8 +35,8 @@ void SafeBeyond::stretch(std::size_t state, const PostTable& tube, std::vector<G
   };
   note(below, 0);
   note(above, dimension.count - 1);
-  dimension.stretch_below = dimension.step * Rational(static_cast<long>(below));
-  dimension.stretch_above = dimension.step * Rational(static_cast<long>(above));
+  dimension.extension_below = dimension.step * Rational(static_cast<long>(below));
+  dimension.extension_above = dimension.step * Rational(static_cast<long>(above));
 }
 
 bool SafeBeyond::has(const std::vector<std::pair<std::size_t, std::int64_t>>& boundaries,

@@ -27,7 +27,7 @@ class SafeBeyond {
                               ThreadTeam& team) const;
 
  private:
-  void stretch(std::size_t state, const PostTable& tube, std::vector<GridDimension>& dimensions);
+  void extend(std::size_t state, const PostTable& tube, std::vector<GridDimension>& dimensions);
   [[nodiscard]] bool has(const std::vector<std::pair<std::size_t, std::int64_t>>& boundaries,
                          std::int64_t cell) const;
 

@@ -216,9 +216,9 @@ class StoppedFlow {
         map.lower += equations_[j].constant * response.integral().at(tau);
         continue;
       }
-      std::optional<StoppedPart> part = part_of(j, row, response);
-      if (!part) return std::nullopt;
-      map.stopped.push_back(std::move(*part));
+      std::optional<StoppedTerm> term = term_of(j, row, response);
+      if (!term) return std::nullopt;
+      map.stopped.push_back(std::move(*term));
     }
     map.upper = map.lower;
     if (!add_disturbances(*flow, map)) return std::nullopt;
@@ -245,19 +245,19 @@ class StoppedFlow {
     return rate;
   }
 
-  [[nodiscard]] std::optional<StoppedPart> part_of(std::size_t j, std::size_t row,
+  [[nodiscard]] std::optional<StoppedTerm> term_of(std::size_t j, std::size_t row,
                                                    const TimePolynomial& response) const {
     const SampledMap::Rate rate = rate_of(j);
-    StoppedPart part{
+    StoppedTerm term{
         .moving = j, .rises = true, .response = response, .slowest = rate.slowest, .fastest = rate.fastest};
-    if (j == row) return part;
+    if (j == row) return term;
     // How x_i changes with v at any time: with one sign, or it is not monotone.
     const TimePolynomial kernel = response.derivative();
     const Rational plain = kernel.integral().at(spec_.dynamics.period);
     const SwitchingIntegral switching = integrate_switching(kernel, spec_.dynamics.period);
     if (!switching.exact || switching.value != abs(plain)) return std::nullopt;
-    part.rises = plain > 0;
-    return part;
+    term.rises = plain > 0;
+    return term;
   }
 
   /// @returns false if one acts on a state that is stopped and on others

@@ -26,7 +26,7 @@ struct Influences {
 
 /// A moving state v that a `stop` limit may hold on the way, v' in [slowest, fastest] but there: what comes
 /// of it, monotone in its present value and in v'.
-struct StoppedPart {
+struct StoppedTerm {
   std::size_t moving = 0;   ///< its place in Influences::moving
   bool rises = true;        ///< with them; else it falls
   TimePolynomial response;  ///< to a unit that v moves, so much time ago
@@ -45,7 +45,7 @@ struct SampledMap {
   };
 
   std::vector<Rational> coefficient;  ///< one for each of Influences::moving; 0 for those that are stopped
-  std::vector<StoppedPart> stopped;
+  std::vector<StoppedTerm> stopped;
   std::optional<Rate> rate;  ///< where limits may stop states
   Rational lower;
   Rational upper;

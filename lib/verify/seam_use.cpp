@@ -58,16 +58,16 @@ class UseFinder {
       : equation_(equation), slot_(slot), period_(period) {}
 
   [[nodiscard]] bool jumps() {
-    for (const Program::Node& node : equation_.nodes) nodes_.push_back(found(node));
+    for (const Program::Node& node : equation_.nodes) nodes_.push_back(node_of(node));
     return nodes_.back().jumps;
   }
 
  private:
-  [[nodiscard]] Node found(const Program::Node& node) const {
+  [[nodiscard]] Node node_of(const Program::Node& node) const {
     if (node.op == Operator::constant) return constant(equation_.constants[node.a]);
     if (node.op == Operator::variable) {
-      const bool own = node.a == slot_;
-      return {.slope = Rational(own ? 1 : 0), .value = std::nullopt, .jumps = own};
+      const bool is_slot = node.a == slot_;
+      return {.slope = Rational(is_slot ? 1 : 0), .value = std::nullopt, .jumps = is_slot};
     }
     Node result = combined(node);
     const std::uint32_t operands[] = {node.a, node.b, node.c};

@@ -84,9 +84,9 @@ std::int64_t floor_of(const Arb& ball, bool lower) {
   return floor_to_int(floor.value());
 }
 
-bool is_found_by_halving(const Rational& place) {
+bool is_dyadic(const Rational& point) {
   constexpr unsigned long kFinest = 1UL << 20U;
-  return place.get_den() <= kFinest && is_integer(place * Rational(kFinest));
+  return point.get_den() <= kFinest && is_integer(point * Rational(kFinest));
 }
 
 }  // namespace
@@ -151,17 +151,17 @@ int sign_on(const TimePolynomial& p, const Rational& end) {
 }
 
 FloorOfLeast floor_of_least(const TimePolynomial& p, const Rational& end) {
-  FloorOfLeast found;
-  found.inner = std::min(floor_to_int(p.at(0)), floor_to_int(p.at(end)));
-  found.outer = found.inner;
+  FloorOfLeast result;
+  result.inner = std::min(floor_to_int(p.at(0)), floor_to_int(p.at(end)));
+  result.outer = result.inner;
   for (const Root& root : roots_on(p.derivative(), end)) {
     const Arb value = root.is_known() ? Arb() : value_at(p, root.ball);
     const std::int64_t low = root.is_known() ? floor_to_int(p.at(root.lower)) : floor_of(value, true);
     const std::int64_t high = root.is_known() ? low : floor_of(value, false);
-    found.outer = std::min(found.outer, low);
-    if (root.lower >= 0 && root.upper <= end) found.inner = std::min(found.inner, high);
+    result.outer = std::min(result.outer, low);
+    if (root.lower >= 0 && root.upper <= end) result.inner = std::min(result.inner, high);
   }
-  return found;
+  return result;
 }
 
 SwitchingIntegral integrate_switching(const TimePolynomial& p, const Rational& end) {
@@ -183,7 +183,7 @@ SwitchingIntegral integrate_switching(const TimePolynomial& p, const Rational& e
   };
   for (const Root& root : roots_on(p, end)) {
     add_until(root);
-    result.exact = result.exact && root.is_known() && is_found_by_halving(root.lower / end);
+    result.exact = result.exact && root.is_known() && is_dyadic(root.lower / end);
   }
   add_until({Arb(end), end, end});
   if (!rest.is_zero()) result.value += rest.upper_rational();

@@ -115,19 +115,19 @@ bool Trajectory::advance(ArbBox& box, const Arb& duration, double tolerance) {
 
 bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance, int most) {
   std::uint32_t left = kFinest;
-  std::uint32_t parts = kFinest;  // not what did before: that would let one question change another
+  std::uint32_t units = kFinest;  // not what did before: that would let one question change another
   may_double_ = true;
   while (left > 0) {
     if (--most < 0 || field_->is_spent()) return false;
-    parts = std::min(parts, left);
-    const Arb share(static_cast<double>(parts) / kFinest);
-    std::optional<ArbBox> next = step(box, duration * share, tolerance * share.approximately(), parts == 1);
+    units = std::min(units, left);
+    const Arb share(static_cast<double>(units) / kFinest);
+    std::optional<ArbBox> next = step(box, duration * share, tolerance * share.approximately(), units == 1);
     if (next) {
       box = std::move(*next);
-      left -= parts;
-      if (left % (2 * parts) == 0 && may_double_) parts *= 2;
-    } else if (parts > 1) {
-      parts /= 2;
+      left -= units;
+      if (left % (2 * units) == 0 && may_double_) units *= 2;
+    } else if (units > 1) {
+      units /= 2;
     } else {
       return false;
     }

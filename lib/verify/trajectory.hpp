@@ -22,7 +22,7 @@ class Trajectory {
   /// @returns false if the solution may not last so long, or the work of the field is spent; then the box is
   /// not changed
   [[nodiscard]] bool advance(ArbBox& box, const Arb& duration, double tolerance);
-  /// advance() without remembering the result, for durations that are asked about once.
+  /// advance() without remembering the result, for durations that are needed once.
   /// @param most parts of the duration that are tried at most
   [[nodiscard]] bool integrate(ArbBox& box, const Arb& duration, double tolerance,
                                int most = std::numeric_limits<int>::max());

@@ -10,7 +10,7 @@ namespace {
 constexpr int kMostTerms = 24;
 /// The tail of a series need not be less than this, or than this part of what slopes leave open.
 constexpr double kNegligible = 1e-17;
-constexpr double kNegligiblePart = 1e-4;
+constexpr double kNegligibleFraction = 1e-4;
 
 /// Its entry (i, j) is 0 if and only if i does not depend on j, not even by way of others.
 ArbMatrix paths_in(const ArbMatrix& slopes, slong n) {
@@ -52,7 +52,7 @@ ArbMatrix transition_matrix(const ArbMatrix& slopes, const Arb& duration) {
   arb_mat_bound_inf_norm(arb_radref(norm.get()), slopes.get());
   norm = norm.upper() * duration.upper();
   const double open = most_width(slopes, n) * duration.upper().approximately();
-  const double enough = std::max(kNegligible, kNegligiblePart * open);
+  const double enough = std::max(kNegligible, kNegligibleFraction * open);
   Arb tail(1.0);  // |J h|^k / k!
   for (int k = 1; k <= kMostTerms && tail.upper().approximately() > enough; ++k) {
     const Arb share = duration / Arb(static_cast<double>(k));

@@ -2,22 +2,22 @@
 #include <memory>
 #include <set>
 
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 #include "answers/checking/corner_truth.hpp"
 #include "base/error.hpp"
 #include "expression/condition.hpp"
 #include "expression/tape_builder.hpp"
 #include "spec/system_spec.hpp"
-#include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
+#include "verify/reference_posts.hpp"
 
 namespace coordreq {
 namespace {
 
 using SlotBox = std::vector<RationalInterval>;
 
-/// One comparison of a condition, asked of all pieces of a cell. How hard the analysis tries decides what is
-/// decided; what is decided is checked: a point that says otherwise makes it undecided here.
+/// One comparison of a condition, evaluated on all pieces of a cell. How hard the analysis tries decides what
+/// is decided; what is decided is checked: a point that says otherwise makes it undecided here.
 class CheckedComparison {
  public:
   explicit CheckedComparison(Program program)
@@ -56,8 +56,8 @@ class CheckedComparison {
     const Truth truth = decider_.decide(std::span<const Interval>(rough),
                                         [&] { return std::span<const RationalInterval>(box); });
     if (truth == Truth::undecided) return truth;
-    const Truth own = (truth == Truth::yes ? everywhere_ : nowhere_).everywhere(box);
-    return own == Truth::no ? Truth::undecided : truth;
+    const Truth everywhere = (truth == Truth::yes ? everywhere_ : nowhere_).everywhere(box);
+    return everywhere == Truth::no ? Truth::undecided : truth;
   }
 
   Program program_;
@@ -168,13 +168,13 @@ Rational kept_value(const PastOperator& past, Truth one, Truth other, const std:
   }
 }
 
-std::vector<SlotBox> places_of(const GridDimension& dimension, bool centres) {
-  std::vector<SlotBox> places;
+std::vector<SlotBox> boxes_of(const GridDimension& dimension, bool centres) {
+  std::vector<SlotBox> boxes;
   for (std::int64_t k = 0; k < dimension.count; ++k) {
     const Rational centre = dimension.point(k);
-    places.push_back(centres ? SlotBox{{.lower = centre, .upper = centre}} : parts_of(dimension, k));
+    boxes.push_back(centres ? SlotBox{{.lower = centre, .upper = centre}} : pieces_of(dimension, k));
   }
-  return places;
+  return boxes;
 }
 
 IndexRange indices_of(const std::set<Rational>& values, const GridDimension& target) {
@@ -195,10 +195,10 @@ PostTable update_posts(const SystemSpec& spec, const UniformGrid& grid, const In
   PostTable table = empty_table(grid, inputs, influences, cells);
   const CellsOfTable all(grid, influences, table);
   const ParameterChoices choices(spec, grid, inputs, influences, table);
-  std::vector<std::vector<SlotBox>> places;
+  std::vector<std::vector<SlotBox>> boxes;
   const UpdateSpec& update = *spec.dynamics.update(state);
   const bool centres = update.past && spec.abstraction.safe == Membership::center;
-  for (const std::size_t j : influences.moving) places.push_back(places_of(grid[j], centres));
+  for (const std::size_t j : influences.moving) boxes.push_back(boxes_of(grid[j], centres));
   team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
     UpdateJudge judge(update.past ? update.past->first : update.value);
     UpdateJudge other(update.past ? update.past->second : update.value);
@@ -216,10 +216,10 @@ PostTable update_posts(const SystemSpec& spec, const UniformGrid& grid, const In
         pieces[spec.disturbance_slot(l)] = {{.lower = w.lower, .upper = w.upper}};
       }
       all.for_each(choices.position(choice), std::nullopt,
-                   [&](const std::vector<std::int64_t>& cell, std::int64_t place) {
+                   [&](const std::vector<std::int64_t>& cell, std::int64_t position) {
                      for (std::size_t j = 0; j < cell.size(); ++j)
-                       pieces[influences.moving[j]] = places[j][static_cast<std::size_t>(cell[j])];
-                     table.entries[*table.find(place)] = indices_of(next(pieces), grid[state]);
+                       pieces[influences.moving[j]] = boxes[j][static_cast<std::size_t>(cell[j])];
+                     table.entries[*table.find(position)] = indices_of(next(pieces), grid[state]);
                    });
     }
   });

@@ -21,7 +21,7 @@ Arb unknown() {
 }
 
 /// Where a state is that goes round, in parts: a point on its upper end is at the lower one.
-std::vector<Arb> places_on_ring(const Seam& seam, const Arb& range) {
+std::vector<Arb> ranges_on_ring(const Seam& seam, const Arb& range) {
   const Rational period = seam.upper - seam.lower;
   const std::vector<Arb> anywhere = {hull(Arb(seam.lower), Arb(seam.upper))};
   if (!range.is_finite()) return anywhere;
@@ -84,30 +84,30 @@ const ArbSeries& SeriesField::extend(std::size_t equation, slong length) {
 
 /// The box in parts, as an equation sees it; none: as all of them do.
 std::vector<ArbBox> SeriesField::seen(const ArbBox& box, std::optional<std::size_t> equation) const {
-  std::vector<ArbBox> parts = {box};
+  std::vector<ArbBox> subboxes = {box};
   for (const Seam& seam : seams_) {
     if (equation && !mentions_[*equation][seam.state]) continue;
     const std::uint32_t slot = variables_[seam.state];
-    const std::vector<Arb> places = places_on_ring(seam, box[slot]);
-    const std::vector<ArbBox> before = std::move(parts);
-    parts.clear();
-    for (const ArbBox& part : before) {
-      for (const Arb& place : places) {
-        parts.push_back(part);
-        parts.back()[slot] = place;
+    const std::vector<Arb> ranges = ranges_on_ring(seam, box[slot]);
+    const std::vector<ArbBox> before = std::move(subboxes);
+    subboxes.clear();
+    for (const ArbBox& subbox : before) {
+      for (const Arb& range : ranges) {
+        subboxes.push_back(subbox);
+        subboxes.back()[slot] = range;
       }
     }
   }
-  return parts;
+  return subboxes;
 }
 
 /// @returns null if the box is seen in parts
 const ArbBox* SeriesField::seen_whole(const ArbBox& box, std::optional<std::size_t> equation) {
   if (seams_.empty()) return &box;
-  std::vector<ArbBox> parts = seen(box, equation);
-  if (parts.size() > 1) return nullptr;
-  part_ = std::move(parts.front());
-  return &part_;
+  std::vector<ArbBox> subboxes = seen(box, equation);
+  if (subboxes.size() > 1) return nullptr;
+  seen_ = std::move(subboxes.front());
+  return &seen_;
 }
 
 Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
@@ -117,10 +117,10 @@ Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
     return run(equation, 1)[0];
   }
   std::optional<Arb> all;
-  for (const ArbBox& part : seen(box, equation)) {
-    put(equation, part);
-    const Arb own = run(equation, 1)[0];
-    all = all ? hull(*all, own) : own;
+  for (const ArbBox& subbox : seen(box, equation)) {
+    put(equation, subbox);
+    const Arb value = run(equation, 1)[0];
+    all = all ? hull(*all, value) : value;
   }
   return *all;
 }

@@ -76,7 +76,7 @@ class SeriesField {
   std::vector<std::uint32_t> variables_;
   std::vector<Seam> seams_;
   std::vector<ArbSeries> slots_;
-  ArbBox part_;  ///< a box as it is seen at a seam
+  ArbBox seen_;  ///< a box as it is seen at a seam
   static constexpr Work kNoEnd = std::numeric_limits<Work>::max();
   Work work_ = 0;
   Work end_ = kNoEnd;

@@ -13,7 +13,7 @@
 #include "verify/analysis_tables.hpp"
 #include "verify/checks.hpp"
 #include "verify/outward_posts.hpp"
-#include "verify/own_posts.hpp"
+#include "verify/reference_posts.hpp"
 
 namespace coordreq {
 namespace {
@@ -48,8 +48,8 @@ class Verifier {
     }
     std::stable_sort(checks_.begin(), checks_.end(),
                      [](const auto& a, const auto& b) { return a->section() < b->section(); });
-    asked_ = std::min(options.sample.value_or(grid_.cells()), grid_.cells());
-    const std::int64_t sample = std::min(asked_, most_cells());
+    requested_ = std::min(options.sample.value_or(grid_.cells()), grid_.cells());
+    const std::int64_t sample = std::min(requested_, most_cells());
     if (sample < grid_.cells()) sample_ = drawn_cells(grid_.cells(), sample);
     if (!sample_.empty()) cells_of_posts_ = with_paths(sample_);
   }
@@ -81,7 +81,7 @@ class Verifier {
     return work.of_all <= most ? grid_.cells() : std::max<Work>(most / work.of_cell, 1);
   }
 
-  /// A sample and the cells that checks look at whatever the sample is: their posts are asked for as well.
+  /// A sample and the cells that checks look at whatever the sample is: their posts are needed as well.
   [[nodiscard]] std::vector<std::int64_t> with_paths(const std::vector<std::int64_t>& cells) const {
     std::set<std::int64_t> all(cells.begin(), cells.end());
     for (const std::unique_ptr<AnswerCheck>& check : checks_) {
@@ -106,23 +106,23 @@ class Verifier {
     std::vector<std::optional<Finding>> findings(grid_.size());
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       const bool jumps = spec_.dynamics.update(i) != nullptr;
-      std::optional<PostTable> own = jumps ? update_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_)
-                                           : corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
-      if (own && own->exact) {
+      std::optional<PostTable> table = jumps ? update_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_)
+                                             : corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
+      if (table && table->exact) {
         if (stored) {
-          findings[i] = check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i], "abstraction");
+          findings[i] = check_abstraction(grid_, inputs_, i, *table, claims_.abstraction[i], "abstraction");
         }
-        tables_.push_back(std::move(*own));
+        tables_.push_back(std::move(*table));
         continue;
       }
       result_.basis = stored ? PostBasis::stored : PostBasis::computed;
-      tables_.push_back(stored ? part_of(claims_.abstraction[i], grid_, inputs_, cells_of_posts_)
+      tables_.push_back(stored ? subset_of(claims_.abstraction[i], grid_, inputs_, cells_of_posts_)
                                : analysis().posts(i));
       enclosed.push_back(i);
     }
     const Work most = work_of_seconds(options_.budget_seconds.value_or(VerifyOptions::kDefaultBudget));
     budget_.emplace(most);
-    Budget budget = budget_->part(1, spec_.abstraction.between_samples ? 2 : 1);
+    Budget budget = budget_->fraction(1, spec_.abstraction.between_samples ? 2 : 1);
     prove(enclosed, stored ? "abstraction " : "reachable sets ", budget, findings);
     budget_->settle(budget);
     for (std::optional<Finding>& finding : findings) {
@@ -213,10 +213,10 @@ class Verifier {
         context_, checks_, sample_, budget ? &*budget : nullptr,
         [this](std::int64_t done, std::int64_t all) { report({.stage = "cells", .done = done, .all = all}); },
         team_);
-    if (result_.cells_checked < asked_) {
+    if (result_.cells_checked < requested_) {
       result_.findings.push_back({.check = "cells",
-                                  .checked = asked_,
-                                  .unproven = asked_ - result_.cells_checked,
+                                  .checked = requested_,
+                                  .unproven = requested_ - result_.cells_checked,
                                   .examples = {},
                                   .doubts = {"the budget ended"},
                                   .note = {}});
@@ -236,13 +236,13 @@ class Verifier {
   CheckContext context_;
   std::vector<std::unique_ptr<AnswerCheck>> checks_;  ///< in the order of the report
   std::optional<Budget> budget_;                      ///< of reachable sets
-  std::int64_t asked_ = 0;                            ///< cells that are to be checked
+  std::int64_t requested_ = 0;                        ///< cells that are to be checked
   std::vector<std::int64_t> sample_;                  ///< cells to be checked; all if empty
   std::vector<std::int64_t> cells_of_posts_;          ///< and those whose posts are; all if empty
   std::vector<PostTable> tables_;
   std::vector<PostTable> tube_tables_;
   std::optional<Tubes> tubes_;
-  std::optional<AnalysisTables> analysis_;  ///< once it is asked for
+  std::optional<AnalysisTables> analysis_;  ///< once it is needed
   Verification result_;
 };
 

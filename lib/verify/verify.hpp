@@ -81,7 +81,7 @@ struct Verification {
 /// where that is exact. Else the abstraction in the file, or one that is computed anew, after enclosures of
 /// its own have shown it to be sound. The ways between the samples are always those of the analysis, after
 /// the same.
-/// @throws SpecError if the spec is beyond what it can be asked
+/// @throws SpecError if the spec is beyond what it can check
 [[nodiscard]] Verification verify_claims(const ProblemSpec& spec, const Claims& claims,
                                          const VerifyOptions& options, ThreadTeam& team);
 

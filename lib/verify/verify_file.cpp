@@ -39,7 +39,7 @@ std::vector<PostTable> stored_tables(const ResultsReader& results) {
 void read_attributes(const ResultsReader& results, const Field& field, FieldClaims& claims) {
   claims.cells = results.counted(field.path);
   for (const FieldAttribute& attribute : field.attributes) {
-    if (!attribute.is_found || attribute.name == "cells") continue;
+    if (!attribute.is_computed || attribute.name == "cells") continue;
     if (std::holds_alternative<double>(attribute.value)) {
       claims.real_attributes[attribute.name] = results.number(field.path, attribute.name);
     } else if (!std::holds_alternative<std::string>(attribute.value)) {

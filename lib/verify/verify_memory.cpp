@@ -59,7 +59,7 @@ double bytes_of_posts(const ResultsReader& results) {
     entries += choices_of(results.spec(), shape.states, shape.inputs);
   }
   if (has_tubes) of_entry += 2 * sizeof(IndexRange) + sizeof(ResolvedRange) + sizeof(std::uint8_t);
-  bytes += of_entry * entries + std::min(2 * kMostBytesOfOpenParts, kBytesOfOpenEntry * entries);
+  bytes += of_entry * entries + std::min(2 * kMostBytesOfOpenSubboxes, kBytesOfOpenEntry * entries);
   const auto inputs = static_cast<double>(results.inputs().count());
   return bytes + 2 * inputs * sizeof(std::int32_t) * static_cast<double>(shapes.size());
 }

@@ -41,25 +41,25 @@ TEST(DividedTables, HoldWhatTheRowsOfARankNeed) {
     Answers answers(model, &ranks);
     run_stages(context_answer.stages(spec), answers, {.team = team});
     const AnalysisContext& context = answers.context;
-    const Abstraction& own = *context.abstraction;
-    const std::size_t a = own.grid.dimension_of(0), c = own.grid.dimension_of(2);
-    const RowShare::Range rows = context.share->own();
-    const std::int64_t cells = (rows.end - rows.begin) * own.grid.row_length();
-    EXPECT_EQ(std::ssize(own.tables[a].entries), 3 * cells);
+    const Abstraction& local = *context.abstraction;
+    const std::size_t a = local.grid.dimension_of(0), c = local.grid.dimension_of(2);
+    const RowShare::Range rows = context.share->local();
+    const std::int64_t cells = (rows.end - rows.begin) * local.grid.row_length();
+    EXPECT_EQ(std::ssize(local.tables[a].entries), 3 * cells);
     EXPECT_EQ(std::ssize(context.engine->slices()[a].ids), 3 * (rows.end - rows.begin));
-    EXPECT_EQ(own.tables[c].entries.size(), whole.tables[c].entries.size());
-    for (std::int64_t x = rows.begin * own.grid.row_length(); x < rows.end * own.grid.row_length(); ++x) {
+    EXPECT_EQ(local.tables[c].entries.size(), whole.tables[c].entries.size());
+    for (std::int64_t x = rows.begin * local.grid.row_length(); x < rows.end * local.grid.row_length(); ++x) {
       for (std::int64_t u = 0; u < 3; ++u) {
-        for (std::size_t i = 0; i < own.grid.size(); ++i) EXPECT_EQ(own.raw(i, x, u), whole.raw(i, x, u));
+        for (std::size_t i = 0; i < local.grid.size(); ++i) EXPECT_EQ(local.raw(i, x, u), whole.raw(i, x, u));
       }
     }
     const std::lock_guard lock(mutex);
-    entries[ranks.rank()] = own.tables[a].entries.size();
+    entries[ranks.rank()] = local.tables[a].entries.size();
   });
   std::size_t sum = 0, most = 0;
-  for (const auto& [rank, own] : entries) {
-    sum += own;
-    most = std::max(most, own);
+  for (const auto& [rank, count] : entries) {
+    sum += count;
+    most = std::max(most, count);
   }
   EXPECT_EQ(sum, whole.tables[whole.grid.dimension_of(0)].entries.size());
   EXPECT_LT(most, sum / 2);

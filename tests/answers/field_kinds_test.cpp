@@ -28,9 +28,9 @@ ProblemSpec everything() {
 
 bool is_over_cells(const Field& field, const ProblemSpec& spec) {
   const std::vector<std::string> axes = cell_axes(spec);
-  const bool is_found =
+  const bool is_computed =
       std::search(field.axes.begin(), field.axes.end(), axes.begin(), axes.end()) != field.axes.end();
-  return is_found && field.section != FieldSection::abstraction;
+  return is_computed && field.section != FieldSection::abstraction;
 }
 
 TEST(FieldKind, IsThatOfTheElements) {

@@ -171,8 +171,8 @@ TEST(LogJudge, MissingSamplesAreNoStep) {
 
 TEST(LogJudge, AStateAsGoodAsOnAFaceIsInBothCells) {
   Analyzed corner(corner_spec());
-  EXPECT_EQ(corner.judge("x,y\n1.50000001,2\n").front().place.cells, (std::vector<std::int64_t>{12, 7}));
-  EXPECT_EQ(corner.judge("x,y\n1.501,2\n").front().place.cells, (std::vector<std::int64_t>{12}));
+  EXPECT_EQ(corner.judge("x,y\n1.50000001,2\n").front().position.cells, (std::vector<std::int64_t>{12, 7}));
+  EXPECT_EQ(corner.judge("x,y\n1.501,2\n").front().position.cells, (std::vector<std::int64_t>{12}));
   // Of the two cells one bears it out.
   const std::string up = ",1,1,1\n4,3,,,\n";
   EXPECT_EQ(found(corner.judge("x,y,u,v,connected\n3.4999999999,2" + up), LogFinding::not_coordinated), "1-");
@@ -200,7 +200,7 @@ TEST(LogJudge, MemoriesFollowTheCells) {
   Analyzed line(line_spec(9, "x + u + v", kEdges, kAgents, R"json(, "memory": {"was": "once(x >= 6)"})json"));
   const auto remembered = [](const Rows& rows) {
     std::vector<Rational> values;
-    for (const JudgedRow& row : rows) values.push_back(row.place.state[1]);
+    for (const JudgedRow& row : rows) values.push_back(row.position.state[1]);
     return values;
   };
   const Rows rows = line.judge("x,u,v\n5,1,0\n6,0,-1\n5,0,-1\n4,,\n");

@@ -58,10 +58,10 @@ TEST(ConditionAtoms, WhatIsOneComparisonStaysWhole) {
 
 /// Where the other part is not defined neither is the whole, and then it is not true.
 TEST(ConditionAtoms, PartsThatMayBeUndefinedAreNotTakenApart) {
-  for (const char* part : {"1 / x", "sqrt(x)", "log(x)", "x^y", "y + 1 / x"}) {
-    const std::string text = "max(" + std::string(part) + ", y) >= 1";
+  for (const char* term : {"1 / x", "sqrt(x)", "log(x)", "x^y", "y + 1 / x"}) {
+    const std::string text = "max(" + std::string(term) + ", y) >= 1";
     EXPECT_EQ(atom_count(text.c_str()), 0U) << text;
-    const std::string other = "y >= min(z, " + std::string(part) + ")";
+    const std::string other = "y >= min(z, " + std::string(term) + ")";
     EXPECT_EQ(atom_count(other.c_str()), 0U) << other;
   }
   EXPECT_EQ(atom_count("max(1 / x, y) >= 1 and z > 0"), 2U);

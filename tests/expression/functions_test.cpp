@@ -61,8 +61,8 @@ TEST(NumberFunctions, EveryColumnIsFilled) {
     EXPECT_FALSE(f.spelling.empty());
     EXPECT_GE(f.fewest, is_unary_function(f.op) ? 1U : 2U);
     EXPECT_GE(f.most, f.fewest);
-    EXPECT_TRUE(f.at_point != nullptr && f.over_interval != nullptr && f.over_rationals != nullptr);
-    EXPECT_TRUE(f.over_dual != nullptr && f.exactly != nullptr && f.rounded != nullptr);
+    EXPECT_TRUE(f.at_point != nullptr && f.on_interval != nullptr && f.on_rationals != nullptr);
+    EXPECT_TRUE(f.on_dual != nullptr && f.exactly != nullptr && f.rounded != nullptr);
     EXPECT_TRUE(f.undefined != nullptr);
     EXPECT_NE(f.half_turns, 0);
     EXPECT_GE(f.series.rule, SeriesRule::sum);
@@ -76,8 +76,8 @@ TEST(NumberFunctions, EveryEvaluationGivesTheSameValue) {
   at_all_points([](const NumberFunction& f, double a, double b) {
     SCOPED_TRACE(testing::Message() << a << ", " << b);
     const double value = f.at_point(a, b);
-    const Interval range = f.over_interval({a, a}, {b, b});
-    const RationalInterval exact_range = f.over_rationals({exact(a), exact(a)}, {exact(b), exact(b)});
+    const Interval range = f.on_interval({a, a}, {b, b});
+    const RationalInterval exact_range = f.on_rationals({exact(a), exact(a)}, {exact(b), exact(b)});
     EXPECT_EQ(range.total, !std::isnan(value));
     EXPECT_EQ(exact_range.total, range.total);
     const std::optional<Rational> rational = f.exactly(exact(a), exact(b));
@@ -104,7 +104,7 @@ TEST(NumberFunctions, DerivativesEncloseDifferences) {
     const bool of_one = is_unary_function(f.op);
     const Dual x = Dual::variable({a, a + kStep}, 0);
     const Dual y = of_one ? x : Dual::variable({b, b + kStep}, 1);
-    const Dual range = f.over_dual(x, y);
+    const Dual range = f.on_dual(x, y);
     if (!range.total) return;
     const double change = f.at_point(a + kStep, of_one ? a : b + kStep) - f.at_point(a, b);
     Interval bound = (range.jump + range.jump);
@@ -118,7 +118,7 @@ TEST(NumberFunctions, DerivativesEncloseDifferences) {
 TEST(NumberFunctions, FactorsOfSeriesAreDerivatives) {
   at_all_points([](const NumberFunction& f, double a, double /*b*/) {
     if (f.series.factor == nullptr) return;
-    const Dual value = f.over_dual(Dual::variable({a, a}, 0), Dual::variable({a, a}, 0));
+    const Dual value = f.on_dual(Dual::variable({a, a}, 0), Dual::variable({a, a}, 0));
     Values nodes({{a, a}, value.value});
     const Interval factor = nodes[f.series.factor(nodes, 0, 1)];
     // At its ends asin has no finite derivative.
@@ -146,7 +146,7 @@ TEST(NumberFunctions, AreDefinedEverywhereIfTheySaySo) {
   const Interval wide{-1e3, 1e3};
   for (const NumberFunction& f : number_functions()) {
     SCOPED_TRACE(name_of(f));
-    EXPECT_EQ(f.over_interval(wide, wide).total, f.is_defined_everywhere());
+    EXPECT_EQ(f.on_interval(wide, wide).total, f.is_defined_everywhere());
   }
 }
 

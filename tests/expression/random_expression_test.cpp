@@ -122,12 +122,12 @@ TEST(RandomExpression, DecidedConditionsHoldAtEveryPoint) {
     const Sample sample = random_sample();
     const Program program = link_xyz(text, ExpectedType::condition);
     const Truth at_point = Evaluator<RationalInterval>(program).condition(sample.point);
-    const Truth over_box = Evaluator<RationalInterval>(program).condition(sample.box);
-    const Truth over_rounded_box = Evaluator<Interval>(program).condition(sample.rounded_box);
+    const Truth on_box = Evaluator<RationalInterval>(program).condition(sample.box);
+    const Truth on_rounded_box = Evaluator<Interval>(program).condition(sample.rounded_box);
     RC_LOG(text);
-    RC_CLASSIFY(over_box != Truth::undecided, "decided");
-    RC_ASSERT(over_box == Truth::undecided || over_box == at_point);
-    RC_ASSERT(over_rounded_box == Truth::undecided || over_rounded_box == at_point);
+    RC_CLASSIFY(on_box != Truth::undecided, "decided");
+    RC_ASSERT(on_box == Truth::undecided || on_box == at_point);
+    RC_ASSERT(on_rounded_box == Truth::undecided || on_rounded_box == at_point);
   }));
 }
 

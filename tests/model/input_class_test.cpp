@@ -19,7 +19,7 @@ TEST(InputClass, NumbersActionsRowMajorOverItsInputs) {
   const std::int64_t u = 1 * 6 + 2 * 2 + 1;  // (1, 2, 1)
   EXPECT_EQ(ends.action(u), 3);
   EXPECT_EQ(ends.strides(), (std::vector<std::int64_t>{2, 0, 1}));
-  EXPECT_EQ(ends.parts(), (std::vector<std::int64_t>{0, 1, 6, 7}));
+  EXPECT_EQ(ends.offsets(), (std::vector<std::int64_t>{0, 1, 6, 7}));
   EXPECT_EQ(ends.offsets({100, 10, 1}), (std::vector<std::int64_t>{0, 1, 100, 101}));
   EXPECT_EQ(ends.project({0, 2, 4, u}), (std::vector<std::int64_t>{0, 3}));
 }
@@ -44,7 +44,7 @@ TEST(InputClass, MayBeEmpty) {
   const InputClass none(three_inputs(), {});
   EXPECT_EQ(none.actions(), 1);
   EXPECT_EQ(none.action(5), 0);
-  EXPECT_EQ(none.parts(), std::vector<std::int64_t>{0});
+  EXPECT_EQ(none.offsets(), std::vector<std::int64_t>{0});
 }
 
 }  // namespace

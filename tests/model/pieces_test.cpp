@@ -54,8 +54,8 @@ TEST(Pieces, NoStateIsBeyondAStopLimit) {
 
 TEST(Pieces, OnlyBoundaryCellsAreStretched) {
   GridDimension d = plain(3);
-  d.stretch_below = 2;
-  d.stretch_above = Rational(1, 4);
+  d.extension_below = 2;
+  d.extension_above = Rational(1, 4);
   EXPECT_EQ(pieces(d, 0), (std::vector<Piece>{{Rational(-5, 2), Rational(1, 2)}}));
   EXPECT_EQ(pieces(d, 1), (std::vector<Piece>{{Rational(1, 2), Rational(3, 2)}}));
   EXPECT_EQ(pieces(d, 2), (std::vector<Piece>{{Rational(3, 2), Rational(11, 4)}}));

@@ -175,7 +175,7 @@ class SilentRuns {
   bool step(const May& may) {
     std::set<std::int64_t> next;
     for (const std::int64_t x : cells_) {
-      if (plain_.over[index_of(x)]) continue;
+      if (plain_.terminal[index_of(x)]) continue;
       bool some = false;
       for (std::int64_t u = 0; u < fast_.abstraction.inputs.count(); ++u) {
         bool is_chosen = true;

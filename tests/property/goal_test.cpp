@@ -74,9 +74,9 @@ std::vector<std::int32_t> approach_delays(const FastAnalysis& fast, const Goal& 
 
 /// P of all joint inputs, with C in the goal.
 std::vector<std::vector<bool>> progress(const FastAnalysis& fast, ThreadTeam& team) {
-  const std::unique_ptr<const ControllerParts> parts = controller_parts(*fast.answers, true);
+  const std::unique_ptr<const PiecewiseController> pieces = piecewise_controller(*fast.answers, true);
   std::vector<std::vector<bool>> result;
-  for (const PartialController& part : parts->parts) {
+  for (const PartialController& part : pieces->pieces) {
     const ActionGrouping grouping(*part.controller.engine, {whole_class(fast.abstraction.inputs)}, team);
     const auto bytes = static_cast<std::size_t>(grouping[0].bytes());
     const auto actions = static_cast<std::size_t>(grouping[0].actions());
@@ -112,7 +112,7 @@ std::vector<std::int32_t> reach_avoid(const ProblemSpec& spec, const FastAnalysi
     }
     return false;
   };
-  std::vector<bool> reached = plain.over;
+  std::vector<bool> reached = plain.terminal;
   std::vector<std::int32_t> steps(reached.size(), INT32_MAX);
   for (std::int32_t k = 0;; ++k) {
     for (std::size_t x = 0; x < steps.size(); ++x) {
@@ -161,23 +161,23 @@ void expect_goal(const ProblemSpec& spec, ThreadTeam& team) {
     RC_ASSERT(goal.approach[p].truncated == plain.partitions[p].truncated);
   }
   RC_ASSERT(goal.returns.forced == plain.longest_return);
-  RC_ASSERT(goal.returns.any_way == plain.longest_gap);
+  RC_ASSERT(goal.returns.any_choice == plain.longest_gap);
   bool some_not_kept = false;
   for (std::size_t x = 0; x < plain.arrival.size(); ++x)
     some_not_kept = some_not_kept || (plain.arrival[x] > 0 && goal.cells.test(static_cast<std::int64_t>(x)));
   RC_CLASSIFY(some_not_kept, "cells of the goal that do not count as arrived");
-  RC_CLASSIFY(goal.away.count() > 0, "cells that come nearer");
+  RC_CLASSIFY(goal.outside_goal.count() > 0, "cells that come nearer");
   RC_CLASSIFY(longest_arrival(goal.nearness, team).value_or(0) > 2, "more than two steps to the goal");
   RC_CLASSIFY(goal.approach[0].sizes.size() > 1, "more than one approach layer");
   RC_CLASSIFY(has_safe_side(spec), "a safe side");
   RC_CLASSIFY(goal.approach[0].truncated, "truncated");
   if (!spec.ends_at_goal()) return;
   expect_reach_avoid(spec, fast, safety);
-  const std::vector<bool> over = members(goal.cells);
+  const std::vector<bool> terminal = members(goal.cells);
   bool some_blocked = false;
-  for (std::size_t x = 0; x < over.size(); ++x) {
+  for (std::size_t x = 0; x < terminal.size(); ++x) {
     const std::vector<bool>& own = safety.controller[x];
-    some_blocked = some_blocked || (over[x] && std::find(own.begin(), own.end(), true) == own.end());
+    some_blocked = some_blocked || (terminal[x] && std::find(own.begin(), own.end(), true) == own.end());
   }
   RC_CLASSIFY(some_blocked, "cells of the goal without an action");
 }
@@ -268,9 +268,9 @@ TEST(Goals, ThatEndTheTaskTellRowsApartThatAreAlikeInAllElse) {
   const FastAnalysis fast(spec, team);
   ASSERT_TRUE(fast.answers->context.tiles.has_value());
   for (std::int64_t x = 0; x < fast.safe.cells(); ++x) {
-    const bool is_there = x / 10 == 7;
-    EXPECT_EQ(fast.invariance.invariant.test(x), is_there || x % 10 > 0) << x;
-    EXPECT_EQ(fast.delays(0)[static_cast<std::size_t>(x)], is_there ? INT32_MAX : x % 10 - 1) << x;
+    const bool is_at_goal = x / 10 == 7;
+    EXPECT_EQ(fast.invariance.invariant.test(x), is_at_goal || x % 10 > 0) << x;
+    EXPECT_EQ(fast.delays(0)[static_cast<std::size_t>(x)], is_at_goal ? INT32_MAX : x % 10 - 1) << x;
   }
 }
 

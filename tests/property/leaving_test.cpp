@@ -50,7 +50,7 @@ std::int64_t leaving_plainly(const ProblemSpec& spec, const FastAnalysis& fast, 
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (std::size_t x = 0; x < staying.size(); ++x) {
-      if (!staying[x] || (!plain.over.empty() && plain.over[x])) continue;
+      if (!staying[x] || (!plain.terminal.empty() && plain.terminal[x])) continue;
       for (std::int64_t u = 0; u < abstraction.inputs.count() && staying[x]; ++u) {
         if (!may_choose(x, u)) continue;
         const auto cell = static_cast<std::int64_t>(x);

@@ -47,7 +47,7 @@ void expect_same_when_resumed(const FastAnalysis& fast, ThreadTeam& team) {
   LevelMap begun(std::move(levels));
   const Invariance again =
       find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {.resumed = &begun}, team,
-                      {.symmetry = &*symmetry}, fast.answers->context.over_or_null());
+                      {.symmetry = &*symmetry}, fast.answers->context.terminal_or_null());
   for (std::int64_t x = 0; x < fast.safe.cells(); ++x)
     RC_ASSERT(again.collision_time.at(x) == fast.invariance.collision_time.at(x));
 }

@@ -113,7 +113,7 @@ void expect_runs_are_fine(const std::string& spec, ThreadTeam& team) {
         RC_ASSERT(rows.size() == trace.samples.size());
         expect_nothing_found(rows, log.text());
         for (std::size_t k = 0; has_contact && k < rows.size(); ++k) {
-          if (rows[k].countdown && rows[k].place.cells.size() == 1)
+          if (rows[k].countdown && rows[k].position.cells.size() == 1)
             RC_ASSERT(*rows[k].countdown >= trace.samples[k].countdown);
         }
       }
@@ -224,7 +224,7 @@ void expect_rows(const Twice& twice, std::size_t p, const RandomLog& log,
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const JudgedRow& row = rows[k];
     const auto x = static_cast<std::size_t>(log.cells[k]);
-    RC_ASSERT(row.place.cells == std::vector<std::int64_t>{log.cells[k]});
+    RC_ASSERT(row.position.cells == std::vector<std::int64_t>{log.cells[k]});
     RC_ASSERT(row.delay == delay(k));
     RC_ASSERT(row.countdown.value_or(-1) == left);
     for (std::size_t c = 0; c < classes.size(); ++c) {

@@ -139,7 +139,7 @@ class PlainRuleModes {
     return silence_.partitions.at(static_cast<std::size_t>(same - listed.begin())).actions[x];
   }
   [[nodiscard]] bool stays(std::size_t q, std::size_t x, const Set& target) const {
-    if (plain_.over[x]) return true;
+    if (plain_.terminal[x]) return true;
     const std::vector<bool>& chosen = choices(q, x);
     for (std::size_t u = 0; u < chosen.size(); ++u) {
       const auto input = static_cast<std::int64_t>(u);
@@ -187,10 +187,10 @@ TEST(Network, AgreesWhereAGoalEndsTheTask) {
     std::vector<Set> safe;
     for (const CellSet& set : fast.answers->get<NetworkSafety>().safe) {
       safe.push_back(members(set));
-      RC_ASSERT(is_subset(plain.over, safe.back()));
+      RC_ASSERT(is_subset(plain.terminal, safe.back()));
     }
     RC_ASSERT(safe == plain.network);
-    RC_CLASSIFY(size(plain.over) > 0 && size(safe.front()) < size(plain.invariant), "some cells of K");
+    RC_CLASSIFY(size(plain.terminal) > 0 && size(safe.front()) < size(plain.invariant), "some cells of K");
   }));
 }
 

@@ -159,16 +159,16 @@ TEST(Resumed, SilenceIsTheSameFromAnyStep) {
     const ProblemSpec spec = read_spec(with_silence(perhaps_with_goal(draw_problem())), "random");
     const FastAnalysis fast(spec, team);
     const CellSet& set = silence_set(*fast.answers);
-    const CellSet* const over = fast.answers->context.over_or_null();
-    const CellSet going_on = over == nullptr ? set : part_of(set, *over, false, nullptr);
+    const CellSet* const terminal = fast.answers->context.terminal_or_null();
+    const CellSet nonterminal = terminal == nullptr ? set : subset_of(set, *terminal, false, nullptr);
     bool goes_on = false;
     for (std::size_t p = 0; p < fast.layers.size(); ++p) {
       const SilentActions actions(*fast.answers, {spec.silence->actions, "actions"},
-                                  spec.coordination.partitions[p].classes, going_on, team);
+                                  spec.coordination.partitions[p].classes, nonterminal, team);
       const auto find = [&](const WaveWatch& watch) {
         WaveCounts counts;
         return find_layer_levels(fast.engine, fast.hull, set, actions.projections, {},
-                                 spec.coordination.max_delay, watch, team, counts, over);
+                                 spec.coordination.max_delay, watch, team, counts, terminal);
       };
       std::vector<Seen> seen;
       const std::vector<std::int64_t> end = levels_of(find(recorder(fast.engine, seen, 1)));

@@ -82,7 +82,7 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
 std::int64_t joint_input(const ActionGrouping& grouping, const std::vector<std::uint32_t>& actions) {
   std::int64_t u = 0;
   for (std::size_t c = 0; c < grouping.size(); ++c) {
-    u += grouping[c].parts()[actions[c]];
+    u += grouping[c].offsets()[actions[c]];
   }
   return u;
 }

@@ -58,7 +58,7 @@ void expect_same_silence(const ProblemSpec& spec, const FastAnalysis& fast, cons
     std::int64_t without_action = 0;
     for (std::size_t x = 0; x < plain.set.size(); ++x) {
       const bool some = std::count(expected.actions[x].begin(), expected.actions[x].end(), true) > 0;
-      without_action += plain.set[x] && !plain.over[x] && !some ? 1 : 0;
+      without_action += plain.set[x] && !plain.terminal[x] && !some ? 1 : 0;
     }
     RC_ASSERT(std::accumulate(own.without_action.begin(), own.without_action.end(), std::int64_t{0}) ==
               without_action);
@@ -70,8 +70,8 @@ void expect_same_silence(const ProblemSpec& spec, const FastAnalysis& fast, cons
   RC_CLASSIFY(is_bounded, "silence has an end");
   RC_CLASSIFY(is_without_action, "some cells have no action");
   RC_CLASSIFY(spec.silence->has_then(), "something comes after");
-  const bool is_over = std::count(plain.over.begin(), plain.over.end(), true) > 0;
-  RC_CLASSIFY(is_over && is_bounded, "a task that ends, and silence");
+  const bool has_terminal = std::count(plain.terminal.begin(), plain.terminal.end(), true) > 0;
+  RC_CLASSIFY(has_terminal && is_bounded, "a task that ends, and silence");
 }
 
 std::string draw_silence_problem() {
@@ -136,7 +136,7 @@ class ToldRuns {
   bool step(const std::vector<std::vector<bool>>& choices) {
     std::set<std::int64_t> next;
     for (const std::int64_t x : cells_) {
-      if (plain_.over[nth(x)]) continue;
+      if (plain_.terminal[nth(x)]) continue;
       bool some = false;
       for (std::int64_t u = 0; u < fast_.abstraction.inputs.count(); ++u) {
         if (!choices[nth(x)][nth(u)]) continue;

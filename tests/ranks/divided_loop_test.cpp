@@ -24,7 +24,7 @@ TEST(DividedLoop, EveryIndexIsRunByOneRankAndKnownToAll) {
           one = {one.first + 1, static_cast<std::int32_t>(-i)};
         }
       });
-      join_parts(&ranks, std::span(ranges));
+      join_segments(&ranks, std::span(ranges));
       for (std::int64_t i = 0; i < count; ++i)
         EXPECT_EQ(ranges[static_cast<std::size_t>(i)], (IndexRange{1, static_cast<std::int32_t>(-i)}));
     });
@@ -39,7 +39,7 @@ TEST(DividedLoop, AllAreToldAllParts) {
       for (std::int64_t i = own.begin; i < own.end; ++i)
         part.push_back({static_cast<std::int32_t>(-i), ranks.rank()});
       std::int64_t told = 0, first_of_rank = 0;
-      tell_all(ranks, count, own.begin, std::span<const IndexRange>(part), [&](IndexRange one) {
+      exchange_all(ranks, count, own.begin, std::span<const IndexRange>(part), [&](IndexRange one) {
         EXPECT_EQ(one.first, -told++);
         EXPECT_GE(one.last, first_of_rank);
         first_of_rank = one.last;
@@ -75,7 +75,7 @@ TEST(DividedLoop, OneProcessRunsAll) {
   for_each_divided(nullptr, team, 3, 1, [&](ThreadTeam::Range range, int) {
     values[static_cast<std::size_t>(range.begin)] += range.begin;
   });
-  join_parts(nullptr, std::span(values));
+  join_segments(nullptr, std::span(values));
   EXPECT_EQ(values, (std::vector<std::int64_t>{5, 6, 7}));
 }
 

@@ -29,7 +29,7 @@ TEST(ChunkLayout, LargeSlabsAreCutInsideIntoEvenPieces) {
   const ChunkLayout layout({5, 3000, 1000}, 1);  // a slab of 3 MB, pieces of at most 15 MB / 16
   EXPECT_EQ(layout.chunk_shape(), (Extents{1, 750, 1000}));
   EXPECT_EQ(layout.chunk_count(), 20U);
-  const ChunkLayout::Stretch second_slab = layout.stretch(5);
+  const ChunkLayout::Segment second_slab = layout.segment(5);
   EXPECT_EQ(second_slab.offset, (Extents{1, 750, 0}));
   EXPECT_EQ(second_slab.begin, 3750000U);
   EXPECT_EQ(second_slab.count, 750000U);
@@ -65,13 +65,13 @@ TEST(ChunkLayout, StretchesCoverTheArrayOnceInOrderAndFitTheirChunks) {
     RC_ASSERT(layout.chunk_elements() * size <= 1024U * 1024U);
     std::uint64_t covered = 0;
     for (std::uint64_t i = 0; i < layout.chunk_count(); ++i) {
-      const ChunkLayout::Stretch stretch = layout.stretch(i);
-      RC_ASSERT(stretch.begin == covered);
-      RC_ASSERT(stretch.begin == linear_index(shape, stretch.offset));
-      RC_ASSERT(stretch.count > 0U);
-      RC_ASSERT(stretch.count <= layout.chunk_elements());
-      for (std::size_t d = 0; d < rank; ++d) RC_ASSERT(stretch.offset[d] % layout.chunk_shape()[d] == 0U);
-      covered += stretch.count;
+      const ChunkLayout::Segment segment = layout.segment(i);
+      RC_ASSERT(segment.begin == covered);
+      RC_ASSERT(segment.begin == linear_index(shape, segment.offset));
+      RC_ASSERT(segment.count > 0U);
+      RC_ASSERT(segment.count <= layout.chunk_elements());
+      for (std::size_t d = 0; d < rank; ++d) RC_ASSERT(segment.offset[d] % layout.chunk_shape()[d] == 0U);
+      covered += segment.count;
     }
     RC_ASSERT(covered == layout.elements());
   }));

@@ -107,7 +107,7 @@ void add_lengths(const Options& options, FieldValues& values) {
 
 void add_found(const Field& field, const Options& options, FieldValues::Entry& entry) {
   for (const FieldAttribute& attribute : field.attributes) {
-    if (!attribute.is_found) continue;
+    if (!attribute.is_computed) continue;
     AttributeValue& value = entry.attributes[attribute.name] = attribute.value;
     if (auto* list = std::get_if<std::vector<std::uint64_t>>(&value))
       std::iota(list->begin(), list->end(), 1U);

@@ -33,13 +33,13 @@ inline nlohmann::json example() {
 /// @param value JSON text; "-" removes what is there
 inline nlohmann::json example_with(const std::string& pointer, const std::string& value) {
   nlohmann::json spec = example();
-  const nlohmann::json::json_pointer place(pointer);
+  const nlohmann::json::json_pointer location(pointer);
   if (value != "-") {
-    spec[place] = nlohmann::json::parse(value);
-  } else if (spec.at(place.parent_pointer()).is_array()) {
-    spec.at(place.parent_pointer()).erase(std::stoul(place.back()));
+    spec[location] = nlohmann::json::parse(value);
+  } else if (spec.at(location.parent_pointer()).is_array()) {
+    spec.at(location.parent_pointer()).erase(std::stoul(location.back()));
   } else {
-    spec.at(place.parent_pointer()).erase(place.back());
+    spec.at(location.parent_pointer()).erase(location.back());
   }
   return spec;
 }

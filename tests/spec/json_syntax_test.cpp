@@ -118,11 +118,11 @@ TEST(JsonSyntax, OddStringsAndKeysStayOneLine) {
 }
 
 TEST(JsonSyntax, LongTextsAreCutBetweenCharacters) {
-  std::string word;
-  for (int i = 0; i < 40; ++i) word += "\xC3\xA9";
-  std::string shown = word.substr(0, 56);
-  EXPECT_EQ(error_of_text("{ \"a\" " + word),
-            "expected ':', found '" + shown + "...' (test.json, line 1, column 7)");
+  std::string text;
+  for (int i = 0; i < 40; ++i) text += "\xC3\xA9";
+  std::string start = text.substr(0, 56);
+  EXPECT_EQ(error_of_text("{ \"a\" " + text),
+            "expected ':', found '" + start + "...' (test.json, line 1, column 7)");
 }
 
 }  // namespace

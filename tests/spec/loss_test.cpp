@@ -19,9 +19,9 @@ NetworkSpec network(const std::string& text) {
 /// "0.9 0.1", "0.9..1 0..0.1"
 std::string probabilities(const NetworkSpec& network) {
   std::string text;
-  for (const ProbabilityRange& own : network.probabilities) {
-    text += (text.empty() ? "" : " ") + to_text(own.low);
-    if (own.low != own.high) text += ".." + to_text(own.high);
+  for (const ProbabilityRange& range : network.probabilities) {
+    text += (text.empty() ? "" : " ") + to_text(range.low);
+    if (range.low != range.high) text += ".." + to_text(range.high);
   }
   return text;
 }
@@ -50,11 +50,11 @@ TEST(Loss, WhatCannotHappenIsNoTransition) {
 }
 
 TEST(Loss, RangesAreNarrowedToWhatSumsToOne) {
-  const NetworkSpec own =
+  const NetworkSpec narrowed =
       network(R"({"modes": [{"name": "m", "partition": "a+b"}, {"name": "n", "partition": "a|b"}],
 "transitions": [["m", "m", [0.25, 0.5]], ["m", "n", [0, 1]], ["n", "m", 1], ["n", "n", [0, 0.5]]]})");
-  EXPECT_EQ(probabilities(own), "0.25..0.5 0.5..0.75 1");
-  EXPECT_EQ(own.transitions, (Transitions{{0, 0}, {0, 1}, {1, 0}}));
+  EXPECT_EQ(probabilities(narrowed), "0.25..0.5 0.5..0.75 1");
+  EXPECT_EQ(narrowed.transitions, (Transitions{{0, 0}, {0, 1}, {1, 0}}));
 }
 
 TEST(Loss, SumsAreExact) {

@@ -38,8 +38,8 @@ TEST(MutatedSpec, BrokenTextIsASpecError) {
     std::string text = valid;
     const auto changes = *rc::gen::inRange(1, 4);
     for (int i = 0; i < changes; ++i) {
-      const auto place = *rc::gen::inRange<std::size_t>(0, text.size());
-      text[place] = static_cast<char>(*rc::gen::arbitrary<std::uint8_t>());
+      const auto position = *rc::gen::inRange<std::size_t>(0, text.size());
+      text[position] = static_cast<char>(*rc::gen::arbitrary<std::uint8_t>());
     }
     if (*rc::gen::arbitrary<bool>()) text.resize(*rc::gen::inRange<std::size_t>(0, text.size()));
     try {

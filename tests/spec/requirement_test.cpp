@@ -7,13 +7,13 @@ namespace coordreq {
 namespace {
 
 /// Steps of 0.5 s.
-std::int64_t steps_of(const std::string& asked) {
+std::int64_t steps_of(const std::string& requirement) {
   const ProblemSpec spec = read_spec(fmt::format(R"({{"coordreq": 1, "name": "times",
 "states": [{{"name": "x", "lower": 0, "upper": 9, "step": 1}}],
 "inputs": [{{"name": "u", "values": [0]}}], "agents": [{{"name": "a", "inputs": ["u"]}}],
 "dynamics": {{"time": "discrete", "period": 0.5, "equations": {{"x": "x + u"}}}}, "safe": "true", "goal": "x == 0",
 "requirements": [{{"name": "r", "where": "true", {}}}]}})",
-                                                 asked),
+                                                 requirement),
                                      "times");
   return spec.requirements.front().steps;
 }

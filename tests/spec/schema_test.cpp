@@ -20,19 +20,19 @@ const std::set<std::string> kKeywords{"$ref",          "$schema",      "addition
                                       "propertyNames", "required",     "title",
                                       "type"};
 
-void check_schema_object(const SortedJson& schema, const std::string& place);
+void check_schema_object(const SortedJson& schema, const std::string& pointer);
 
-void check_members(const SortedJson& object, const std::string& place, bool need_description) {
+void check_members(const SortedJson& object, const std::string& pointer, bool need_description) {
   for (const auto& [key, member] : object.items()) {
-    EXPECT_TRUE(!need_description || member.contains("description")) << place << "/" << key;
-    check_schema_object(member, place + "/" + key);
+    EXPECT_TRUE(!need_description || member.contains("description")) << pointer << "/" << key;
+    check_schema_object(member, pointer + "/" + key);
   }
 }
 
-void check_schema_object(const SortedJson& schema, const std::string& place) {
+void check_schema_object(const SortedJson& schema, const std::string& pointer) {
   if (!schema.is_object()) return;
   for (const auto& [keyword, value] : schema.items()) {
-    const std::string where = place + "/" + keyword;
+    const std::string where = pointer + "/" + keyword;
     EXPECT_EQ(kKeywords.count(keyword), 1U) << where;
     if (keyword == "properties" || keyword == "definitions") {
       check_members(value, where, keyword == "properties");
@@ -43,7 +43,7 @@ void check_schema_object(const SortedJson& schema, const std::string& place) {
     }
   }
   if (schema.value("type", SortedJson()) == "object") {
-    EXPECT_TRUE(schema.contains("additionalProperties")) << place;
+    EXPECT_TRUE(schema.contains("additionalProperties")) << pointer;
   }
 }
 

@@ -10,21 +10,21 @@
 namespace coordreq {
 namespace {
 
-nlohmann::json told(const nlohmann::json& silence) {
+nlohmann::json spec_with(const nlohmann::json& silence) {
   nlohmann::json spec = test::example();
   spec["silence"] = silence;
   return spec;
 }
 
 TEST(SilenceSpec, HasConditionsByAgent) {
-  const ProblemSpec spec = test::read(told({{"actions", {{"b", "u2 <= x1"}}}}));
+  const ProblemSpec spec = test::read(spec_with({{"actions", {{"b", "u2 <= x1"}}}}));
   ASSERT_TRUE(spec.silence.has_value());
   EXPECT_FALSE(spec.silence->actions[0].has_value());
   EXPECT_EQ(spec.silence->actions[1]->text, "u2 <= x1");
   EXPECT_FALSE(spec.silence->has_then());
   EXPECT_FALSE(all_have_rules(*spec.silence));
-  const ProblemSpec both = test::read(
-      told({{"actions", {{"a", "true"}, {"b", "true"}}}, {"then", {{"b", "u2 == 0"}, {"a", "u1 == 0"}}}}));
+  const ProblemSpec both = test::read(spec_with(
+      {{"actions", {{"a", "true"}, {"b", "true"}}}, {"then", {{"b", "u2 == 0"}, {"a", "u1 == 0"}}}}));
   EXPECT_TRUE(all_have_rules(*both.silence));
   ASSERT_TRUE(both.silence->has_then());
   EXPECT_EQ(both.silence->then[0]->text, "u1 == 0");
@@ -32,19 +32,20 @@ TEST(SilenceSpec, HasConditionsByAgent) {
 }
 
 TEST(SilenceSpec, IsAboutAgentsAndAllOfThemAfterwards) {
-  EXPECT_EQ(test::error_of(told(nlohmann::json::object())),
+  EXPECT_EQ(test::error_of(spec_with(nlohmann::json::object())),
             "missing key: one of 'actions', 'then' or 'hold' (/silence)");
-  EXPECT_EQ(test::error_of(told({{"actions", {{"c", "true"}}}})), "'c' is not an agent (/silence/actions)");
-  EXPECT_EQ(test::error_of(told({{"then", {{"a", "u1 == 0"}}}})),
+  EXPECT_EQ(test::error_of(spec_with({{"actions", {{"c", "true"}}}})),
+            "'c' is not an agent (/silence/actions)");
+  EXPECT_EQ(test::error_of(spec_with({{"then", {{"a", "u1 == 0"}}}})),
             "expected a condition for each agent, found none for 'b' (/silence/then)");
-  EXPECT_EQ(test::error_of(told({{"actions", {{"a", "u1"}}}})).find("expected a condition"), 0U);
+  EXPECT_EQ(test::error_of(spec_with({{"actions", {{"a", "u1"}}}})).find("expected a condition"), 0U);
 }
 
 TEST(SilenceSpec, ReadsOwnInputsAndStatesThatAreSeen) {
   EXPECT_EQ(
-      test::error_of(told({{"actions", {{"a", "u2 <= 0"}}}})),
+      test::error_of(spec_with({{"actions", {{"a", "u2 <= 0"}}}})),
       "expected inputs of the agent 'a' and states that it sees, found the input 'u2' (/silence/actions/a)");
-  nlohmann::json spec = told({{"actions", {{"a", "u1 <= x2"}}}});
+  nlohmann::json spec = spec_with({{"actions", {{"a", "u1 <= x2"}}}});
   EXPECT_EQ(test::error_of(spec), "");
   spec["agents"][0]["sees"] = {"x1"};
   EXPECT_EQ(
@@ -58,7 +59,7 @@ TEST(SilenceSpec, ReadsOwnInputsAndStatesThatAreSeen) {
 }
 
 TEST(SilenceSpec, MemoriesCountAsWhatTheirFormulasRead) {
-  nlohmann::json spec = told({{"actions", {{"a", "late or u1 == 0"}}}});
+  nlohmann::json spec = spec_with({{"actions", {{"a", "late or u1 == 0"}}}});
   spec["memory"] = {{"late", "previous(x2 >= 0)"}};
   EXPECT_EQ(test::error_of(spec), "");
   spec["agents"][0]["sees"] = {"x1"};
@@ -71,8 +72,8 @@ TEST(SilenceSpec, MemoriesCountAsWhatTheirFormulasRead) {
 }
 
 TEST(SilenceSpec, WhatIsMeasuredWithAnErrorIsForOneAgent) {
-  nlohmann::json spec =
-      told({{"actions", {{"a", "u1 <= x1"}}}, {"then", {{"a", "x1 > 0 or u1 == 0"}, {"b", "u2 <= x2"}}}});
+  nlohmann::json spec = spec_with(
+      {{"actions", {{"a", "u1 <= x1"}}}, {"then", {{"a", "x1 > 0 or u1 == 0"}, {"b", "u2 <= x2"}}}});
   spec["states"][0]["measurement_error"] = 0.25;
   EXPECT_EQ(test::error_of(spec), "");
   spec["silence"]["then"]["b"] = "u2 <= x1";

@@ -6,9 +6,9 @@ namespace coordreq {
 namespace {
 
 TEST(UdunitsSpelling, TimeWordsBecomeSymbols) {
-  for (const char* word : {"s", "sec", "second", "seconds"}) EXPECT_EQ(udunits_spelling(word), "s");
-  for (const char* word : {"min", "minute", "minutes"}) EXPECT_EQ(udunits_spelling(word), "min");
-  for (const char* word : {"h", "hr", "hour", "hours"}) EXPECT_EQ(udunits_spelling(word), "h");
+  for (const char* name : {"s", "sec", "second", "seconds"}) EXPECT_EQ(udunits_spelling(name), "s");
+  for (const char* name : {"min", "minute", "minutes"}) EXPECT_EQ(udunits_spelling(name), "min");
+  for (const char* name : {"h", "hr", "hour", "hours"}) EXPECT_EQ(udunits_spelling(name), "h");
   EXPECT_EQ(udunits_spelling("days"), "d");
   EXPECT_EQ(udunits_spelling("milliseconds"), "ms");
 }

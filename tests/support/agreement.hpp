@@ -31,15 +31,15 @@ inline std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const A
 inline PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast,
                              const PackedPairs* listed = nullptr) {
   const std::vector<bool> safe = members(fast.safe);
-  std::vector<bool> over;
+  std::vector<bool> terminal;
   if (spec.ends_at_goal()) {
     ThreadTeam team(1);
-    over =
+    terminal =
         members(cells_that_satisfy(*spec.goal, spec, fast.abstraction.grid, fast.abstraction.inputs, team));
-    for (std::size_t x = 0; x < over.size(); ++x) over[x] = over[x] && safe[x];
+    for (std::size_t x = 0; x < terminal.size(); ++x) terminal[x] = terminal[x] && safe[x];
   }
   return analyze_plainly(spec, fast.abstraction, safe, members(fast.beyond.value_or(fast.safe)), listed,
-                         over);
+                         terminal);
 }
 
 inline void expect_agreement(const FastAnalysis& fast, const PlainAnalysis& plain, ThreadTeam& team) {

@@ -46,7 +46,7 @@ class BlindFinder {
  private:
   /// IND_C(x) is not empty, and all of it is permitted and leads into the set.
   bool leads_into(std::int64_t x, const Set& target) const {
-    if (plain_.over[index_of(x)]) return true;
+    if (plain_.terminal[index_of(x)]) return true;
     bool some = false;
     for (std::int64_t u = 0; u < inputs_; ++u) {
       bool is_chosen = true;
@@ -68,7 +68,7 @@ class BlindFinder {
 
   /// Where the task is over nobody has to choose.
   bool counts_in_fibre(std::int64_t x, const Set& layer) const {
-    return layer[index_of(x)] && !plain_.over[index_of(x)];
+    return layer[index_of(x)] && !plain_.terminal[index_of(x)];
   }
 
   /// B_1 from Z_1.

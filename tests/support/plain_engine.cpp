@@ -23,7 +23,7 @@ using Set = std::vector<bool>;
 class PlainEngine {
  public:
   PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe,
-              const Set& safe_beyond, const PackedPairs* listed, const Set& over)
+              const Set& safe_beyond, const PackedPairs* listed, const Set& terminal)
       : spec_(spec),
         a_(abstraction),
         safe_(safe),
@@ -31,7 +31,7 @@ class PlainEngine {
         listed_(listed),
         cells_(abstraction.grid.cells()),
         inputs_(abstraction.inputs.count()) {
-    result_.over = over.empty() ? Set(at(cells_), false) : over;
+    result_.terminal = terminal.empty() ? Set(at(cells_), false) : terminal;
   }
 
   PlainAnalysis run() {
@@ -97,7 +97,7 @@ class PlainEngine {
       ++result_.iterations;
       const Set before = result_.invariant;
       for (std::int64_t x = 0; x < cells_; ++x) {
-        if (!before[at(x)] || result_.over[at(x)] || keeps(x, before)) continue;
+        if (!before[at(x)] || result_.terminal[at(x)] || keeps(x, before)) continue;
         result_.invariant[at(x)] = false;
         result_.collision_time[at(x)] = static_cast<std::int32_t>(result_.iterations);
         changed = true;
@@ -186,7 +186,7 @@ class PlainEngine {
         }
         for (std::int64_t x = 0; x < cells_; ++x) {
           const PartitionSpec& partition = network.modes[q].partition;
-          if (before[q][at(x)] && !result_.over[at(x)] &&
+          if (before[q][at(x)] && !result_.terminal[at(x)] &&
               !stays_in_mode(x, partition, network.resynthesise, target))
             sets[q][at(x)] = false;
         }
@@ -228,7 +228,7 @@ class PlainEngine {
       if (stop) break;
       Set next = layer;
       for (std::int64_t x = 0; x < cells_; ++x) {
-        if (!layer[at(x)] || result_.over[at(x)]) continue;
+        if (!layer[at(x)] || result_.terminal[at(x)]) continue;
         bool some = false;
         bool every = true;
         for (std::int64_t u = 0; u < inputs_ && every; ++u) {
@@ -309,8 +309,8 @@ struct Choices {
 
 PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
                               const std::vector<bool>& safe, const std::vector<bool>& safe_beyond,
-                              const PackedPairs* listed, const std::vector<bool>& over) {
-  return PlainEngine(spec, abstraction, safe, safe_beyond, listed, over).run();
+                              const PackedPairs* listed, const std::vector<bool>& terminal) {
+  return PlainEngine(spec, abstraction, safe, safe_beyond, listed, terminal).run();
 }
 
 SafeBounds bound_safe_plainly(const ProblemSpec& spec, const UniformGrid& grid) {

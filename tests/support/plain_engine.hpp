@@ -20,7 +20,7 @@ struct PlainAnalysis {
     /// [class][cell][joint action of the class]
     std::vector<std::vector<std::vector<bool>>> projection;
   };
-  std::vector<bool> over;  ///< [cell] counts as T: of a goal that ends the task
+  std::vector<bool> terminal;  ///< [cell] counts as T: of a goal that ends the task
   std::vector<bool> invariant;
   std::vector<std::int32_t> collision_time;
   std::int64_t iterations = 0;
@@ -32,12 +32,12 @@ struct PlainAnalysis {
 
 /// @param listed the pairs of a controller file; null: there is none
 /// @param safe_beyond what tubes that pass a limit where a state saturates must stay in, as S reads beyond it
-/// @param over the cells of S in a goal that ends the task; empty: none does
+/// @param terminal the cells of S in a goal that ends the task; empty: none does
 [[nodiscard]] PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
                                             const std::vector<bool>& safe,
                                             const std::vector<bool>& safe_beyond,
                                             const PackedPairs* listed = nullptr,
-                                            const std::vector<bool>& over = {});
+                                            const std::vector<bool>& terminal = {});
 
 /// What S lies between, in plain terms.
 struct SafeBounds {

@@ -116,7 +116,7 @@ PlainRisks PlainRisk::next(const PlainRisks& risks, bool is_safest) const {
     for (std::size_t y = 0; y < posts_.size(); ++y)
       expected_risk.push_back(expected(risks, mode, static_cast<std::int64_t>(y)));
     for (std::size_t x = 0; x < posts_.size(); ++x) {
-      if (!plain_.invariant[x] || plain_.over[x]) continue;
+      if (!plain_.invariant[x] || plain_.terminal[x]) continue;
       const bool is_least = is_safest && is_one_[mode];
       Rational chosen = is_least ? 1 : 0;
       bool some = false;

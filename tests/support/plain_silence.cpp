@@ -32,7 +32,7 @@ class SilenceFinder {
         inputs_(abstraction.inputs.count()) {}
 
   PlainSilence run() {
-    result_.over = plain_.over;
+    result_.terminal = plain_.terminal;
     result_.set = plain_.invariant;
     if (spec_.silence->has_then()) find_set();
     for (std::size_t p = 0; p < spec_.coordination.partitions.size(); ++p) find_layers(p);
@@ -72,7 +72,7 @@ class SilenceFinder {
 
   /// The choices are not empty, and all of them are permitted and lead into the set; or the task is over.
   bool leads_into(std::int64_t x, const Pairs& choices, const Set& target) const {
-    bool some = plain_.over[nth(x)];
+    bool some = plain_.terminal[nth(x)];
     if (some) return true;
     for (std::int64_t u = 0; u < inputs_; ++u) {
       if (!choices[nth(x)][nth(u)]) continue;

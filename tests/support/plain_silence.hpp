@@ -17,7 +17,7 @@ struct PlainSilence {
     std::int32_t fixed_point_index = -1;
     bool truncated = false;
   };
-  std::vector<bool> over;               ///< counts as T, as PlainAnalysis has it
+  std::vector<bool> terminal;           ///< counts as T, as PlainAnalysis has it
   std::vector<bool> set;                ///< K'
   std::vector<std::vector<bool>> then;  ///< [cell][joint input] C'(x); none without `then`
   std::vector<Partition> partitions;

@@ -13,11 +13,11 @@ namespace {
 std::vector<Work> answered(Work all, int threads) {
   ThreadTeam team(threads);
   Budget budget(all);
-  std::vector<Work> taken(500);
+  std::vector<Work> used(500);
   answer_within(budget, 500, 64, team, [&](std::int64_t i, Work most, int) {
-    return taken[static_cast<std::size_t>(i)] = std::min<Work>(most, i % 10);
+    return used[static_cast<std::size_t>(i)] = std::min<Work>(most, i % 10);
   });
-  return taken;
+  return used;
 }
 
 TEST(Budget, EndsAtTheSameQuestionWhateverTheNumberOfThreads) {

@@ -18,7 +18,7 @@ GridDimension line(std::int64_t count, Outside below, Outside above) {
           .upper = 9};
 }
 
-Finding compare(const GridDimension& dimension, IndexRange own, IndexRange claimed) {
+Finding compare(const GridDimension& dimension, IndexRange expected, IndexRange claimed) {
   const UniformGrid grid({dimension});
   const InputSpace inputs({{"u", {5}}});
   const auto table = [&grid](IndexRange range) {
@@ -26,7 +26,7 @@ Finding compare(const GridDimension& dimension, IndexRange own, IndexRange claim
     result.entries.assign(static_cast<std::size_t>(grid[0].count), range);
     return result;
   };
-  const PostTable one = part_of(table(own), grid, inputs, {2});
+  const PostTable one = subset_of(table(expected), grid, inputs, {2});
   return check_abstraction(grid, inputs, 0, one, table(claimed), "abstraction");
 }
 

@@ -129,9 +129,9 @@ TEST(PostProver, ProvesWhatSolutionsNeed) {
   box[1] = span_of(exact(1.75), exact(2.25));
   const auto verdicts = [&](IndexRange x, IndexRange y, int boxes) {
     PostProver prover(spec, grid, group);
-    std::vector<OpenPart> parts = {{.cuts = {}, .claims = {0, 1}}};
+    std::vector<OpenSubbox> subboxes = {{.cuts = {}, .claims = {0, 1}}};
     const std::vector<PostProof> proofs =
-        prover.prove(box, {{0, x}, {1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000, 0);
+        prover.prove(box, {{0, x}, {1, y}}, subboxes, {boxes, {16, 1e-6}}, 100'000'000, 0);
     return std::pair(proofs[0].verdict, proofs[1].verdict);
   };
   EXPECT_EQ(verdicts({9, 10}, {8, 14}, 64), std::pair(PostVerdict::holds, PostVerdict::holds));
@@ -141,12 +141,12 @@ TEST(PostProver, ProvesWhatSolutionsNeed) {
   // In rounds of more and more pieces, each of which begins where the one before has ended.
   const auto in_rounds = [&](IndexRange y) {
     PostProver prover(spec, grid, group);
-    std::vector<OpenPart> parts = {{.cuts = {}, .claims = {0}}};
+    std::vector<OpenSubbox> subboxes = {{.cuts = {}, .claims = {0}}};
     PostVerdict verdict = PostVerdict::open;
     int rounds = 0;
     for (int boxes = 1; verdict == PostVerdict::open && boxes <= 64; boxes *= 4, ++rounds)
-      verdict = prover.prove(box, {{1, y}}, parts, {boxes, {16, 1e-6}}, 100'000'000, 0)[0].verdict;
-    EXPECT_EQ(parts.empty(), verdict != PostVerdict::open);
+      verdict = prover.prove(box, {{1, y}}, subboxes, {boxes, {16, 1e-6}}, 100'000'000, 0)[0].verdict;
+    EXPECT_EQ(subboxes.empty(), verdict != PostVerdict::open);
     return std::pair(verdict, rounds);
   };
   EXPECT_EQ(in_rounds({8, 14}).first, PostVerdict::holds);

@@ -22,7 +22,7 @@ Program program_of(Operator op) {
   return program;
 }
 
-constexpr double kPlaces[][2] = {{0.375, 0.625}, {0.75, -0.5}, {0.25, 2.0}};
+constexpr double kPoints[][2] = {{0.375, 0.625}, {0.75, -0.5}, {0.25, 2.0}};
 constexpr double kStep = 1e-6;
 
 double slope_at(const NumberFunction& f, double a, double b) {
@@ -34,7 +34,7 @@ TEST(ExpressionSeries, EveryFunctionHasItsValueAndItsSlope) {
     SCOPED_TRACE(f.spelling);
     const Program program = program_of(f.op);
     ExpressionSeries series(program);
-    for (const auto& [a, b] : kPlaces) {
+    for (const auto& [a, b] : kPoints) {
       std::vector<ArbSeries> slots(2);
       slots[0].assign(Arb(a));
       slots[0].set(1, Arb(1.0));
@@ -61,7 +61,7 @@ TEST(ExpressionSeries, EveryFunctionIsExtendedToWhatItIs) {
                                       {Operator::power, 5, 6, 0},
                                       {Operator::negate, 7, 0, 0}})
       program.nodes.push_back(node);
-    for (const auto& [a, b] : kPlaces) {
+    for (const auto& [a, b] : kPoints) {
       ExpressionSeries at_once(program), extended(program);
       std::vector<ArbSeries> slots(2);
       for (slong k = 0; k < kLength; ++k) {
@@ -84,13 +84,13 @@ TEST(ExpressionSeries, OfARangeEveryFunctionHoldsTheValuesInIt) {
     SCOPED_TRACE(f.spelling);
     const Program program = program_of(f.op);
     ExpressionSeries series(program);
-    for (const auto& [a, b] : kPlaces) {
+    for (const auto& [a, b] : kPoints) {
       std::vector<ArbSeries> slots(2);
       slots[0].assign(hull(Arb(a), Arb(a + 0.125)));
       slots[1].assign(Arb(b));
       const Arb range = series(slots, 1)[0];
-      for (const double part : {0.0, 0.5, 1.0}) {
-        const double value = f.at_point(a + 0.125 * part, b);
+      for (const double fraction : {0.0, 0.5, 1.0}) {
+        const double value = f.at_point(a + 0.125 * fraction, b);
         EXPECT_LE(range.lower().approximately(), value + 1e-12);
         EXPECT_GE(range.upper().approximately(), value - 1e-12);
       }
@@ -153,7 +153,7 @@ TEST(ExpressionSeries, FloorJumpsWhereItsArgumentIsWhole) {
 TEST(Sloped, EveryFunctionHasItsSlope) {
   for (const NumberFunction& f : number_functions()) {
     SCOPED_TRACE(f.spelling);
-    for (const auto& [a, b] : kPlaces) {
+    for (const auto& [a, b] : kPoints) {
       const Sloped<Interval> x{.value = Interval(a), .gradient = {Interval(1.0)}};
       const Sloped<Interval> y{.value = Interval(b)};
       const Sloped<Interval> found = is_unary_function(f.op) ? apply(f.op, x) : apply(f.op, x, y);

@@ -246,7 +246,7 @@ TEST(CellsNeeded, OfWideCellsOneIsEnoughWhicheverItIs) {
   const GridDimension x{.name = "x", .first = 0, .step = 1, .count = 9, .measurement_error = 1};
   const IndexRange needed = cells_needed(x, 2, 2);
   EXPECT_EQ(needed, (IndexRange{3, 1}));
-  EXPECT_EQ(OwnTube::of(needed, needed).outer, (IndexRange{3, 3}));
+  EXPECT_EQ(TubeBounds::of(needed, needed).outer, (IndexRange{3, 3}));
 }
 
 }  // namespace

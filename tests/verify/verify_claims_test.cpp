@@ -115,8 +115,8 @@ TEST(VerifyClaims, ASmallerKThanThereIsIsFoundThoughItIsSafe) {
   std::fill(invariant.begin(), invariant.end(), 0);
   fields.at("/invariant").cells = {0};
   for (std::int32_t& time : fields.at("/collision_time").values.front()) time = time == kUnbounded ? 1 : time;
-  for (std::vector<std::int32_t>& own : fields.at("/delay").values) {
-    for (std::int32_t& delay : own) delay = std::min(delay, -1);
+  for (std::vector<std::int32_t>& delays : fields.at("/delay").values) {
+    for (std::int32_t& delay : delays) delay = std::min(delay, -1);
   }
   fields.at("/trigger").values = fields.at("/delay").values;
   fields.at("/fixed_point_index").integers.assign(fields.at("/delay").values.size(), 0);

@@ -41,16 +41,17 @@ struct BlindSight {
                  input_classes(answers.context.spec, answers.context.abstraction->inputs,
                                answers.context.spec.coordination.partitions[p]),
                  work.team),
-        projections(answers.get<GoingOn>().controller, grouping, work.team, answers.context.equal(), true),
+        projections(answers.get<NonterminalController>().controller, grouping, work.team,
+                    answers.context.equal(), true),
         fibres(fibres_of(answers.context.spec, answers.context.engine->grid(),
                          answers.context.spec.coordination.partitions[p])),
-        sources{projections, *answers.get<GoingOn>().controller.invariant, fibres},
+        sources{projections, *answers.get<NonterminalController>().controller.invariant, fibres},
         problem{sources,
                 *answers.context.hull,
                 answers.get<PartitionLayers>().partitions[p],
                 answers.context.spec.coordination.max_delay,
                 answers.context.tiles.has_value(),
-                answers.context.over_or_null()} {}
+                answers.context.terminal_or_null()} {}
   BlindSight(const BlindSight&) = delete;
   BlindSight& operator=(const BlindSight&) = delete;
   ~BlindSight() = default;
@@ -67,9 +68,9 @@ void find_blind_layers_of(std::size_t p, Answers& answers, const StageWork& work
   if (answers.find<Blind>() == nullptr)
     answers.add(Blind{std::vector<BlindPartition>(context.spec.coordination.partitions.size())});
   const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
-    work.enter_part("projections");
+    work.enter_substage("projections");
     const BlindSight partition(answers, p, work);
-    work.enter_part("");
+    work.enter_substage("");
     return find_blind_levels(partition.problem, watch, work.team, counts);
   };
   find_layers(context, *context.engine, answers.get<Invariance>().invariant, work,
@@ -115,8 +116,8 @@ std::int64_t count_equal(const AnalysisContext& context, const CellSet& invarian
   std::int64_t equal = 0;
   one.layers_of.visit([&](const auto& first) {
     other.layers_of.visit([&](const auto& second) {
-      const RowShare::Range own = own_rows(context.shared_rows(), first.rows());
-      for (std::int64_t r = own.begin; r < own.end; ++r) {
+      const RowShare::Range local = local_rows(context.shared_rows(), first.rows());
+      for (std::int64_t r = local.begin; r < local.end; ++r) {
         const auto* const a = first.row(r);
         const auto* const b = second.row(r);
         for_each_bit(invariant.row(r), [&](std::int64_t x) {
@@ -142,9 +143,9 @@ void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work
   size_tables(answers, p, blind_partition.tables);
   const bool is_kept = work.store != nullptr && work.store->take(serialise_all) == StageStore::Kept::finished;
   if (!is_kept) {
-    work.enter_part("projections");
+    work.enter_substage("projections");
     const BlindSight partition(answers, p, work);
-    work.enter_part("");
+    work.enter_substage("");
     blind_partition.delays.layers_of = find_blind_delays(partition.problem, blind_partition.layers.layers_of,
                                                          blind_partition.layers.fixed_point_index, work.team);
     const std::int64_t deepest =

@@ -23,8 +23,8 @@ LevelMap first_levels(const BlindProblem& problem, const CellSet* common) {
   return problem.layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& layers) {
     auto levels = engine.make_levels<Level>(engine.posts(), problem.interned);
     std::vector<Level> cells(at(levels.row_length()) + kLevelBlock / sizeof(Level));
-    const RowShare::Range own = own_rows(engine.share(), levels.rows());
-    for (std::int64_t r = own.begin; r < own.end; ++r) {
+    const RowShare::Range local = local_rows(engine.share(), levels.rows());
+    for (std::int64_t r = local.begin; r < local.end; ++r) {
       std::copy_n(layers.row(r), layers.row_length(), cells.begin());
       if (common != nullptr) {
         for_each_bit(problem.sources.invariant.row(r), [&](std::int64_t x) {
@@ -49,7 +49,7 @@ LevelMap run(const BlindProblem& problem, LevelMap& start, const WaveWatch& watc
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
     return std::make_unique<IndependentActions<Level>>(sources.projections, sources.invariant, team.size());
   };
-  const LevelProblem levels{.spared = problem.over,
+  const LevelProblem levels{.spared = problem.terminal,
                             .equal = sources.projections.equal_work(),
                             .limit = problem.max_delay.value_or(-1),
                             .make8 = [&] { return make(std::uint8_t{}); },
@@ -87,16 +87,16 @@ LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, 
     std::deque<PostReader<Level>> readers;
     for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, layers);
     const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level>& posts = readers[at(worker)];
       std::vector<Level> least(posts.lanes(), 0), cells(posts.lanes(), 0);
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
-        const ConstRow over = problem.over == nullptr ? ConstRow() : problem.over->row(place.row);
-        if (!any_set(invariant.row(place.row)) && !any_set(over)) continue;
+        const ConstRow terminal = problem.terminal == nullptr ? ConstRow() : problem.terminal->row(place.row);
+        if (!any_set(invariant.row(place.row)) && !any_set(terminal)) continue;
         actions.find_minimum(place, posts, least.data(), worker);
         std::ranges::fill(cells, Level{0});
-        for_each_bit(over, [&](std::int64_t x) { cells[at(x)] = kTop; });
+        for_each_bit(terminal, [&](std::int64_t x) { cells[at(x)] = kTop; });
         for_each_bit(invariant.row(place.row), [&](std::int64_t x) {
           cells[at(x)] = least[at(x)] == kTop ? most : static_cast<Level>(least[at(x)] + 1);
         });

@@ -14,8 +14,8 @@ struct BlindProblem {
   const RowHull& hull;
   const DelayLayers& layers;  ///< Z
   std::optional<std::int64_t> max_delay;
-  bool interned = false;          ///< whether equal rows are held once
-  const CellSet* over = nullptr;  ///< G of a goal that ends the task, in every B_k; null: there is none
+  bool interned = false;              ///< whether equal rows are held once
+  const CellSet* terminal = nullptr;  ///< G of a goal that ends the task, in every B_k; null: there is none
 };
 
 /// B_0 = K, B_1 (find_common_cells()), and from there on the operator of Z. Together.

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "answers/checking/steps_check.hpp"
 #include "base/index.hpp"
 #include "model/input_class.hpp"
@@ -24,14 +24,14 @@ namespace {
 struct BlindClass {
   BlindClass(const CheckContext& context, const PartitionSpec& partition, std::size_t c)
       : name(class_name(context.spec->agents, partition.classes[c])),
-        own(class_of(*context.spec, *context.inputs, partition.classes[c])),
+        inputs(class_of(*context.spec, *context.inputs, partition.classes[c])),
         seen(seen_states(*context.spec, partition.classes[c])),
         grid(*context.grid) {
-    own.tabulate();
+    inputs.tabulate();
     for (const std::size_t i : seen) fibres *= grid[i].count;
     if (seen.size() < grid.size())
       table = &context.claims->at("/silent/" + partition.name + "/" + name).integers;
-    admitted.assign(at(grid.cells() * own.bytes()), 0);
+    admitted.assign(at(grid.cells() * inputs.bytes()), 0);
   }
 
   [[nodiscard]] std::int64_t fibre(std::int64_t cell) const {
@@ -40,15 +40,15 @@ struct BlindClass {
     return number;
   }
   [[nodiscard]] bool has(std::int64_t cell, std::int64_t a) const {
-    return (admitted[at(cell * own.bytes() + a / 8)] >> (a % 8) & 1U) != 0;
+    return (admitted[at(cell * inputs.bytes() + a / 8)] >> (a % 8) & 1U) != 0;
   }
   /// Where the row of k steps and a fibre begins in the bytes of the table.
-  [[nodiscard]] std::size_t place(std::int64_t k, std::int64_t fibre) const {
-    return at(((k - 1) * fibres + fibre) * own.bytes());
+  [[nodiscard]] std::size_t position(std::int64_t k, std::int64_t fibre) const {
+    return at(((k - 1) * fibres + fibre) * inputs.bytes());
   }
-  [[nodiscard]] std::int64_t rows() const { return std::ssize(*table) / (fibres * own.bytes()); }
+  [[nodiscard]] std::int64_t rows() const { return std::ssize(*table) / (fibres * inputs.bytes()); }
   /// "first: p1 = 1, v1 = 0, 3 steps left".
-  [[nodiscard]] std::string words(std::int64_t k, std::int64_t fibre) const {
+  [[nodiscard]] std::string label(std::int64_t k, std::int64_t fibre) const {
     std::string text;
     for (std::size_t n = seen.size(); n-- > 0;) {
       const GridDimension& dimension = grid[seen[n]];
@@ -60,7 +60,7 @@ struct BlindClass {
   }
 
   std::string name;
-  InputClass own;
+  InputClass inputs;
   std::vector<std::size_t> seen;
   const UniformGrid& grid;
   std::int64_t fibres = 1;
@@ -129,9 +129,9 @@ class BlindChecker : public CellChecker {
       compare_steps(context_, partition.delay, cell, partition.delays[cell.at()], expected);
       // In B_1 blind delay and countdown agree; which cells are in B_1 is checked later.
       const std::int32_t claimed = partition.claims.delay[cell.at()];
-      const bool is_out = claimed == 0 && expected >= 0 && !partition.classes.empty() && !cell.is_over();
+      const bool is_out = claimed == 0 && expected >= 0 && !partition.classes.empty() && !cell.is_terminal();
       compare_steps(context_, partition.countdown, cell, claimed, is_out ? 0 : expected);
-      if (cell.is_invariant() && !cell.is_over()) check_rows(cell, partition);
+      if (cell.is_invariant() && !cell.is_terminal()) check_rows(cell, partition);
     }
   }
 
@@ -143,7 +143,7 @@ class BlindChecker : public CellChecker {
       BlindClass& one = partition.classes[c];
       const std::vector<std::uint8_t>& actions = choices.actions()[c];
       for (std::size_t a = 0; a < actions.size(); ++a) {
-        std::uint8_t& byte = one.admitted[cell.at() * at(one.own.bytes()) + a / 8];
+        std::uint8_t& byte = one.admitted[cell.at() * at(one.inputs.bytes()) + a / 8];
         byte = static_cast<std::uint8_t>(byte | actions[a] << (a % 8));
       }
     }
@@ -157,22 +157,23 @@ class BlindChecker : public CellChecker {
       const std::int64_t fibre = one.fibre(cell.number());
       for (std::int64_t k = 1; k <= std::min<std::int64_t>(depth, one.rows()); ++k) {
         partition.tables.add_checked(1);
-        if (!has_more(one, one.place(k, fibre), cell.number())) continue;
+        if (!has_more(one, one.position(k, fibre), cell.number())) continue;
         if (context_.sound_only()) {
           partition.tables.add_unproven();
           continue;
         }
         partition.tables.add_wrong(cell.number(), [&] {
-          return fmt::format("{}: an action that is not admissible at {}", one.words(k, fibre), cell.place());
+          return fmt::format("{}: an action that is not admissible at {}", one.label(k, fibre),
+                             cell.location());
         });
       }
     }
   }
 
-  static bool has_more(const BlindClass& one, std::size_t place, std::int64_t cell) {
-    for (std::int64_t b = 0; b < one.own.bytes(); ++b) {
-      const auto row = static_cast<unsigned>((*one.table)[place + at(b)]);
-      if ((row & ~unsigned{one.admitted[at(cell * one.own.bytes() + b)]}) != 0) return true;
+  static bool has_more(const BlindClass& one, std::size_t position, std::int64_t cell) {
+    for (std::int64_t b = 0; b < one.inputs.bytes(); ++b) {
+      const auto row = static_cast<unsigned>((*one.table)[position + at(b)]);
+      if ((row & ~unsigned{one.admitted[at(cell * one.inputs.bytes() + b)]}) != 0) return true;
     }
     return false;
   }
@@ -207,7 +208,7 @@ class BlindCheck : public StepsCheck<BlindPartitionCheck> {
 
   /// Whether the file claims that the cell is in a goal that ends the task. It is in every B_k, and removes
   /// no action from its fibres.
-  [[nodiscard]] bool is_over(std::int64_t cell) const {
+  [[nodiscard]] bool is_terminal(std::int64_t cell) const {
     return context_.spec->ends_at_goal() && context_.claims->values("/arrival")[at(cell)] == 0;
   }
 
@@ -216,18 +217,19 @@ class BlindCheck : public StepsCheck<BlindPartitionCheck> {
     const std::int64_t cells = context_.grid->cells();
     std::vector<std::uint8_t> left(at(cells), 0);
     for (std::int64_t x = 0; x < cells; ++x)
-      left[at(x)] = partition.of_sight[at(x)] >= 1 && !is_over(x) ? 1 : 0;
+      left[at(x)] = partition.of_sight[at(x)] >= 1 && !is_terminal(x) ? 1 : 0;
     for (const BlindClass& one : partition.classes) leave_common(one, left);
     partition.first.add_checked(cells);
     for (std::int64_t x = 0; x < cells; ++x) {
-      if (is_over(x) || (left[at(x)] != 0) == (partition.claims.delay[at(x)] >= 1)) continue;
+      if (is_terminal(x) || (left[at(x)] != 0) == (partition.claims.delay[at(x)] >= 1)) continue;
       const char* const expected = left[at(x)] != 0 ? "" : "not ";
-      note(partition.first, x, fmt::format("{}: expected {}in B_1", place_of(*context_.grid, x), expected));
+      note(partition.first, x,
+           fmt::format("{}: expected {}in B_1", location_of(*context_.grid, x), expected));
     }
   }
 
   static void leave_common(const BlindClass& one, std::vector<std::uint8_t>& left) {
-    const std::int64_t actions = one.own.actions();
+    const std::int64_t actions = one.inputs.actions();
     std::vector<std::int64_t> counts(at(one.fibres * actions), 0);
     for (std::int64_t x = 0; x < std::ssize(left); ++x) {
       for (std::int64_t a = 0; left[at(x)] != 0 && a < actions; ++a)
@@ -235,52 +237,52 @@ class BlindCheck : public StepsCheck<BlindPartitionCheck> {
     }
     for (std::int64_t x = 0; x < std::ssize(left); ++x) {
       if (left[at(x)] == 0) continue;
-      const auto own = counts.begin() + static_cast<std::ptrdiff_t>(one.fibre(x) * actions);
-      const auto most = std::max_element(own, own + static_cast<std::ptrdiff_t>(actions)) - own;
+      const auto first = counts.begin() + static_cast<std::ptrdiff_t>(one.fibre(x) * actions);
+      const auto most = std::max_element(first, first + static_cast<std::ptrdiff_t>(actions)) - first;
       if (!one.has(x, most)) left[at(x)] = 0;
     }
   }
 
   /// The common actions of the cells of one depth in each fibre; and whether there are such cells.
   struct CommonActions {
-    std::vector<std::uint8_t> bytes;   ///< as in the table
-    std::vector<std::uint8_t> is_met;  ///< [(k - 1) * fibres + fibre]
+    std::vector<std::uint8_t> bytes;        ///< as in the table
+    std::vector<std::uint8_t> is_occupied;  ///< [(k - 1) * fibres + fibre]
   };
 
   /// Each row must be the common actions of all cells of B_k in the fibre: those of this depth, and all
   /// deeper ones.
   void check_table(BlindPartitionCheck& partition, const BlindClass& one) const {
-    const std::int64_t rows = one.rows(), bytes = one.own.bytes();
+    const std::int64_t rows = one.rows(), bytes = one.inputs.bytes();
     CommonActions common{std::vector<std::uint8_t>(one.table->size(), 0xFF),
                          std::vector<std::uint8_t>(at(rows * one.fibres), 0)};
     for (std::int64_t x = 0; x < context_.grid->cells(); ++x) {
       const std::int64_t k = std::min<std::int64_t>(partition.depth(x), rows);
-      if (k < 1 || is_over(x)) continue;
+      if (k < 1 || is_terminal(x)) continue;
       const std::int64_t fibre = one.fibre(x);
-      common.is_met[at((k - 1) * one.fibres + fibre)] = 1;
+      common.is_occupied[at((k - 1) * one.fibres + fibre)] = 1;
       for (std::int64_t b = 0; b < bytes; ++b)
-        common.bytes[one.place(k, fibre) + at(b)] &= one.admitted[at(x * bytes + b)];
+        common.bytes[one.position(k, fibre) + at(b)] &= one.admitted[at(x * bytes + b)];
     }
     for (std::int64_t k = rows; k >= 1; --k) {
       for (std::int64_t fibre = 0; fibre < one.fibres; ++fibre) {
         partition.tables.add_checked(1);
         if (is_row(one, k, fibre, common)) continue;
         note(partition.tables, context_.grid->cells() + k * one.fibres + fibre,
-             one.words(k, fibre) + ": other actions than all of its cells have");
+             one.label(k, fibre) + ": other actions than all of its cells have");
       }
     }
   }
 
   /// Whether a row of the table is right, given the row of one step more, whose common actions are added.
   static bool is_row(const BlindClass& one, std::int64_t k, std::int64_t fibre, CommonActions& common) {
-    const std::size_t place = one.place(k, fibre), step = at(one.fibres * one.own.bytes());
-    std::uint8_t& is_met = common.is_met[at((k - 1) * one.fibres + fibre)];
-    const bool has_deeper = k < one.rows() && common.is_met[at(k * one.fibres + fibre)] != 0;
-    if (has_deeper) is_met = 1;
+    const std::size_t position = one.position(k, fibre), step = at(one.fibres * one.inputs.bytes());
+    std::uint8_t& is_occupied = common.is_occupied[at((k - 1) * one.fibres + fibre)];
+    const bool has_deeper = k < one.rows() && common.is_occupied[at(k * one.fibres + fibre)] != 0;
+    if (has_deeper) is_occupied = 1;
     bool is_same = true;
-    for (std::size_t b = place; b < place + at(one.own.bytes()); ++b) {
+    for (std::size_t b = position; b < position + at(one.inputs.bytes()); ++b) {
       if (has_deeper) common.bytes[b] &= common.bytes[b + step];
-      is_same = is_same && (*one.table)[b] == (is_met != 0 ? common.bytes[b] : 0);
+      is_same = is_same && (*one.table)[b] == (is_occupied != 0 ? common.bytes[b] : 0);
     }
     return is_same;
   }

@@ -32,9 +32,9 @@ class CellRemoval {
     const auto at_once = std::max<std::int64_t>(1, kMostCounts / table.actions);
     for (std::int64_t begin = 0; begin < std::ssize(conflicting); begin += at_once) {
       const std::int64_t end = std::min(std::ssize(conflicting), begin + at_once);
-      places_.assign(table.seen_depth.size(), kWhole);
+      positions_.assign(table.seen_depth.size(), kWhole);
       for (std::int64_t i = begin; i < end; ++i)
-        places_[at(conflicting[at(i)])] = static_cast<std::int32_t>(i - begin);
+        positions_[at(conflicting[at(i)])] = static_cast<std::int32_t>(i - begin);
       const std::vector<std::int64_t> counts = count_actions(c, end - begin);
       remove_others(c, most_counted(counts, table.actions));
     }
@@ -52,13 +52,13 @@ class CellRemoval {
   void for_each_row_of_batch(std::size_t c, const Visit& visit) {
     const RowEngine& engine = sources_.projections.grouping().engine();
     const Fibres& fibres = *sources_.fibres[c];
-    for_each_own_row(team_, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int number) {
+    for_each_local_row(team_, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int number) {
       Worker& worker = workers_[at(number)];
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         worker.cells.assign(engine.row_words(), 0);
         const std::int64_t base = fibres.base(place);
         for_each_bit(left_.row(place.row), [&](std::int64_t x) {
-          if (places_[at(base + fibres.of_lane(x))] != kWhole)
+          if (positions_[at(base + fibres.of_lane(x))] != kWhole)
             worker.cells[at(x / CellSet::kWordBits)] |= Word{1} << (x % CellSet::kWordBits);
         });
         if (!any_set(worker.cells)) continue;
@@ -77,7 +77,8 @@ class CellRemoval {
       const ConstRow all = worker.rows.cells(c, static_cast<std::uint32_t>(a));
       worker.have.resize(all.size());
       for (std::size_t w = 0; w < all.size(); ++w) worker.have[w] = all[w] & worker.cells[w];
-      for_each_bit(worker.have, [&](std::int64_t x) { visit(places_[at(base + fibres.of_lane(x))], a, x); });
+      for_each_bit(worker.have,
+                   [&](std::int64_t x) { visit(positions_[at(base + fibres.of_lane(x))], a, x); });
     }
   }
 
@@ -100,16 +101,16 @@ class CellRemoval {
   static std::vector<std::int64_t> most_counted(const std::vector<std::int64_t>& counts,
                                                 std::int64_t actions) {
     std::vector<std::int64_t> most;
-    for (auto own = counts.begin(); own != counts.end(); own += static_cast<std::ptrdiff_t>(actions))
-      most.push_back(std::max_element(own, own + static_cast<std::ptrdiff_t>(actions)) - own);
+    for (auto first = counts.begin(); first != counts.end(); first += static_cast<std::ptrdiff_t>(actions))
+      most.push_back(std::max_element(first, first + static_cast<std::ptrdiff_t>(actions)) - first);
     return most;
   }
 
-  void remove_others(std::size_t c, const std::vector<std::int64_t>& taken) {
+  void remove_others(std::size_t c, const std::vector<std::int64_t>& chosen) {
     for_each_row_of_batch(c, [&](const RowPlace& place, Worker& worker) {
       std::vector<Word> lost = worker.cells;
       for_each_action(c, place, worker, [&](std::int32_t fibre, std::int64_t a, std::int64_t lane) {
-        if (a == taken[at(fibre)])
+        if (a == chosen[at(fibre)])
           lost[at(lane / CellSet::kWordBits)] &= ~(Word{1} << (lane % CellSet::kWordBits));
       });
       const MutableRow left = left_.row(place.row);
@@ -126,15 +127,15 @@ class CellRemoval {
   ThreadTeam& team_;
   CellSet& left_;
   std::vector<Worker> workers_;
-  std::vector<std::int32_t> places_;  ///< [fibre] position in the batch, or kWhole
+  std::vector<std::int32_t> positions_;  ///< [fibre] position in the batch, or kWhole
 };
 
 /// Z_1, in own rows.
 CellSet second_layer(const LevelMap& layers, const CellSet& invariant) {
   CellSet result(invariant.rows(), invariant.row_length());
   layers.visit([&](const auto& levels) {
-    const RowShare::Range own = own_rows(levels.share(), levels.rows());
-    for (std::int64_t r = own.begin; r < own.end; ++r) {
+    const RowShare::Range local = local_rows(levels.share(), levels.rows());
+    for (std::int64_t r = local.begin; r < local.end; ++r) {
       const auto* const row = levels.row(r);
       for_each_bit(invariant.row(r), [&](std::int64_t x) {
         if (row[x] > 1) result.row(r)[at(x / CellSet::kWordBits)] |= Word{1} << (x % CellSet::kWordBits);

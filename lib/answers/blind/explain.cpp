@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "answers/field_parts.hpp"
-#include "answers/one_cell/action_words.hpp"
+#include "answers/one_cell/action_text.hpp"
 #include "answers/one_cell/cell_members.hpp"
 #include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
@@ -29,7 +29,7 @@ constexpr std::int64_t kMostCells = 4096;
 
 using Sets = std::vector<std::vector<bool>>;  ///< [class][action]
 
-/// Two cells that a class cannot tell apart.
+/// Two cells that a class cannot distinguish.
 struct Confusion {
   std::size_t class_number = 0;
   std::int64_t cell = 0, other = 0;
@@ -71,7 +71,7 @@ class SightFinder {
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!has_silent_table(*context_.spec, *context_.partition, c)) continue;
       for (const std::int64_t other : fibre(c, cell)) {
-        if (other == cell || delay_(other) < 1 || is_over(other)) continue;
+        if (other == cell || delay_(other) < 1 || is_terminal(other)) continue;
         const std::vector<bool> actions = context_.projections(other)[c];
         const std::int64_t common = count_common(sets[c], actions);
         if (common == std::count(actions.begin(), actions.end(), true)) continue;  // any action serves there
@@ -84,17 +84,17 @@ class SightFinder {
   }
 
  private:
-  /// Whether a goal that ends the task is reached at the cell: then nobody chooses anything.
-  [[nodiscard]] bool is_over(std::int64_t cell) const {
+  /// Whether a goal that ends the task is reached at the cell: then no agent chooses anything.
+  [[nodiscard]] bool is_terminal(std::int64_t cell) const {
     return context_.spec->ends_at_goal() && context_.values(paths::kArrival)(cell) == 0;
   }
 
   /// The first cell found that can follow under IND_C and has this countdown.
   std::optional<std::int64_t> next_with(std::int64_t cell, std::int32_t countdown) {
     const Sets sets = context_.projections(cell);
-    std::optional<std::int64_t> found;
+    std::optional<std::int64_t> successor;
     context_.posts->move_to(cell);
-    for (std::int64_t u = 0; u < context_.posts->inputs().count() && !found; ++u) {
+    for (std::int64_t u = 0; u < context_.posts->inputs().count() && !successor; ++u) {
       bool is_chosen = true;
       for (std::size_t c = 0; c < classes_.size() && is_chosen; ++c)
         is_chosen = sets[c][at(classes_[c].action(u))];
@@ -108,11 +108,11 @@ class SightFinder {
       }
       if (has_gone) continue;
       for_each_cell(grid_, box, [&](std::int64_t next) {
-        if (countdown_(next) == countdown) found = next;
-        return !found;
+        if (countdown_(next) == countdown) successor = next;
+        return !successor;
       });
     }
-    return found;
+    return successor;
   }
 
   /// Cells of the fibre of a class, ascending, at most kMostCells.
@@ -154,7 +154,7 @@ Json centre_json(const UniformGrid& grid, std::int64_t cell) {
   return json;
 }
 
-std::string centre_words(const UniformGrid& grid, std::int64_t cell) {
+std::string centre_text(const UniformGrid& grid, std::int64_t cell) {
   std::string text;
   for (std::size_t i = 0; i < grid.size(); ++i)
     text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", grid[i].name,
@@ -170,23 +170,23 @@ Json actions_json(const std::vector<bool>& actions) {
   return numbers;
 }
 
-std::string steps_words(std::int32_t steps) {
+std::string steps_text(std::int32_t steps) {
   return steps == kUnbounded ? "indefinitely" : count_of(steps, "step");
 }
 
-void add_confusion(const ExplainContext& context, const Confusion& found, Explained& result) {
-  const std::vector<std::int32_t>& own = context.partition->classes[found.class_number];
-  const std::string name = class_name(context.spec->agents, own);
+void add_confusion(const ExplainContext& context, const Confusion& confusion, Explained& result) {
+  const std::vector<std::int32_t>& agents = context.partition->classes[confusion.class_number];
+  const std::string name = class_name(context.spec->agents, agents);
   const UniformGrid& grid = context.posts->grid();
-  (*result.found)["class"] = name;
-  (*result.found)["cells"] = {
-      {{"state", centre_json(grid, found.cell)}, {"actions", actions_json(found.actions)}},
-      {{"state", centre_json(grid, found.other)}, {"actions", actions_json(found.others_actions)}}};
-  result.sentences.push_back(
-      fmt::format("It may end at {}, where {} may take {}; but the class cannot distinguish this from {}, "
-                  "where it may take {}.",
-                  centre_words(grid, found.cell), name, action_words(*context.spec, own, found.actions),
-                  centre_words(grid, found.other), action_words(*context.spec, own, found.others_actions)));
+  (*result.json)["class"] = name;
+  (*result.json)["cells"] = {
+      {{"state", centre_json(grid, confusion.cell)}, {"actions", actions_json(confusion.actions)}},
+      {{"state", centre_json(grid, confusion.other)}, {"actions", actions_json(confusion.others_actions)}}};
+  result.sentences.push_back(fmt::format(
+      "It may end at {}, where {} may take {}; but the class cannot distinguish this from {}, "
+      "where it may take {}.",
+      centre_text(grid, confusion.cell), name, action_text(*context.spec, agents, confusion.actions),
+      centre_text(grid, confusion.other), action_text(*context.spec, agents, confusion.others_actions)));
 }
 
 }  // namespace
@@ -199,13 +199,13 @@ Explained explain_blind(const ExplainContext& context) {
   const std::int32_t blind = context.values(paths::kBlindDelay)(context.cell);
   const bool is_less = blind >= 0 && blind < context.delay;
   const bool is_counted = is_less && context.delay != kUnbounded;
-  Explained result{.key = "sight", .found = std::make_shared<Json>(Json::object())};
-  *result.found = {{"blind_delay", steps_json(blind)},
-                   {"steps_less", is_counted                             ? Json(context.delay - blind)
-                                  : blind == context.delay && blind >= 0 ? Json(0)
-                                                                         : Json()},
-                   {"class", Json()},
-                   {"cells", Json::array()}};
+  Explained result{.key = "sight", .json = std::make_shared<Json>(Json::object())};
+  *result.json = {{"blind_delay", steps_json(blind)},
+                  {"steps_less", is_counted                             ? Json(context.delay - blind)
+                                 : blind == context.delay && blind >= 0 ? Json(0)
+                                                                        : Json()},
+                  {"class", Json()},
+                  {"cells", Json::array()}};
   if (blind < 0) return result;
   if (!is_less) {
     result.sentences = {"With own observations only, the agents tolerate the same silence."};
@@ -213,12 +213,12 @@ Explained explain_blind(const ExplainContext& context) {
   }
   result.sentences = {
       is_counted ? fmt::format("With own observations only it is {} less: {}.",
-                               count_of(context.delay - blind, "step"), steps_words(blind))
-                 : fmt::format("With own observations only, silence ends after {}.", steps_words(blind))};
+                               count_of(context.delay - blind, "step"), steps_text(blind))
+                 : fmt::format("With own observations only, silence ends after {}.", steps_text(blind))};
   SightFinder finder(context);
   const std::optional<std::int64_t> end = finder.end_of_silence(blind);
-  const std::optional<Confusion> found = end ? finder.find(*end) : std::nullopt;
-  if (found) add_confusion(context, *found, result);
+  const std::optional<Confusion> confusion = end ? finder.find(*end) : std::nullopt;
+  if (confusion) add_confusion(context, *confusion, result);
   return result;
 }
 

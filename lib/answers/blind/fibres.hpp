@@ -19,7 +19,7 @@ namespace coordreq {
 ///     sees x          0     0     1     1     2     2
 ///     sees y          0     1     0     1     0     1
 ///
-/// A class cannot tell cells of a fibre apart, so it needs one action for all of them that are left. If
+/// A class cannot distinguish the cells of a fibre, so it needs one action for all of them that are left. If
 /// C(0,0) leaves it {-1, 0} and C(0,1) leaves it {0, 1}, that is 0; if they leave it {-1} and {1} there is
 /// none, and the cells that lack the most frequent action are not in B_1.
 class Fibres {

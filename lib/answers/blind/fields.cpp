@@ -18,7 +18,8 @@
 namespace coordreq {
 namespace {
 
-Field blind_steps(const std::string& name, const ProblemSpec& spec, std::string long_name, FieldDisplay display) {
+Field blind_steps(const std::string& name, const ProblemSpec& spec, std::string long_name,
+                  FieldDisplay display) {
   return steps_field(name, spec, kOutsideSafe,
                      described(std::move(long_name)) +
                          std::vector<FieldAttribute>{flags({{kOutsideSafe, "not_safe"},
@@ -109,11 +110,11 @@ Fields blind_fields(const ProblemSpec& spec) {
                   "read themselves",
                   {.column = "blind_delay",
                    .compared = "blind delay",
-                   .query = {.words = "blind delay"},
+                   .query = {.label = "blind delay"},
                    .map = {.kind = "blind_delay", .title = "Silence with own observations only"}}));
   fields.push_back(blind_steps("blind_countdown", spec,
                                "steps of silence that are left where agents no longer know the cell",
-                               {.column = "blind_countdown", .query = {.words = "blind steps left"}}));
+                               {.column = "blind_countdown", .query = {.label = "blind steps left"}}));
   add_sizes(fields, kBlindKind, cell_count(spec), spec);
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   const bool has_tables = std::ranges::any_of(

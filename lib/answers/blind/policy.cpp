@@ -21,8 +21,8 @@ class BlindPolicy : public CellPolicy {
     const ProblemSpec& spec = *context.spec;
     for (std::size_t c = 0; c < context.partition->classes.size(); ++c) {
       const bool has_table = has_silent_table(spec, *context.partition, c);
-      own_.push_back({.table = has_table ? paths::silent(spec, *context.partition, c) : "",
-                      .seen = seen_states(spec, context.partition->classes[c])});
+      classes_.push_back({.table = has_table ? paths::silent(spec, *context.partition, c) : "",
+                          .seen = seen_states(spec, context.partition->classes[c])});
     }
   }
 
@@ -34,7 +34,8 @@ class BlindPolicy : public CellPolicy {
                              const std::vector<InputClass>& classes) override {
     std::vector<Numbers> actions(classes.size());
     for (std::size_t c = 0; c < classes.size() && countdown > 0; ++c)
-      actions[c] = own_[c].table.empty() ? classes[c].project(together) : row(own_[c], cell, countdown);
+      actions[c] =
+          classes_[c].table.empty() ? classes[c].project(together) : row(classes_[c], cell, countdown);
     return actions;
   }
 
@@ -63,9 +64,9 @@ class BlindPolicy : public CellPolicy {
   /// Rows beyond the last one are equal to it.
   [[nodiscard]] Numbers row(const Class& silent_class, std::int64_t cell, std::int32_t countdown) const {
     const std::int64_t rows = tables_->length(paths::kSilentLayer);
-    std::vector<std::int64_t> place{std::min<std::int64_t>(countdown, rows) - 1};
-    for (const std::size_t i : silent_class.seen) place.push_back(posts_.grid().index(cell, i));
-    const std::vector<std::uint8_t> bytes = tables_->bytes(silent_class.table, place);
+    std::vector<std::int64_t> indices{std::min<std::int64_t>(countdown, rows) - 1};
+    for (const std::size_t i : silent_class.seen) indices.push_back(posts_.grid().index(cell, i));
+    const std::vector<std::uint8_t> bytes = tables_->bytes(silent_class.table, indices);
     Numbers actions;
     for (std::size_t a = 0; a < 8 * bytes.size(); ++a) {
       if ((bytes[a / 8] >> (a % 8) & 1U) != 0) actions.push_back(static_cast<std::int64_t>(a));
@@ -76,7 +77,7 @@ class BlindPolicy : public CellPolicy {
   CellPosts& posts_;
   const ByteTables* tables_;
   CellValue countdown_;
-  std::vector<Class> own_;
+  std::vector<Class> classes_;
 };
 
 std::vector<std::string> silent_tables(const ProblemSpec& spec, const PartitionSpec& partition) {
@@ -90,14 +91,14 @@ std::vector<std::string> silent_tables(const ProblemSpec& spec, const PartitionS
 }  // namespace
 
 /// Agents who see only themselves (contract, section 8): those who coordinate choose from C(x), and count
-/// down from the least blind countdown of all cells that may be next, for nobody will know which of these it
-/// is. Each class then chooses from the row of its silent table, by what it sees. None if all agents see
+/// down from the least blind countdown of all cells that may be next, for no agent will know which of these
+/// it is. Each class then chooses from the row of its silent table, by what it sees. None if all agents see
 /// everything.
 std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
   if (!has_limited_sight(spec)) return {};
   return {{.name = kBlindKind.name,
            .kind = &kBlindKind,
-           .words = "blind",
+           .label = "blind",
            .gain = "own observations",
            .headline = "with own observations only",
            .delay = paths::kBlindDelay,

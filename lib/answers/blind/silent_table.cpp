@@ -11,8 +11,8 @@
 namespace coordreq {
 namespace {
 
-void raise(std::uint8_t& place, std::uint8_t value) {
-  std::atomic_ref<std::uint8_t> shared(place);
+void raise(std::uint8_t& depth, std::uint8_t value) {
+  std::atomic_ref<std::uint8_t> shared(depth);
   std::uint8_t old = shared.load(std::memory_order_relaxed);
   while (old < value && !shared.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
   }
@@ -113,7 +113,7 @@ std::vector<SilentTable> find_silent_tables(const SilentSources& sources, const 
   levels.visit([&](const auto& rows) {
     std::deque<TableBuilder> builders;
     for (int w = 0; w < team.size(); ++w) builders.emplace_back(sources, tables);
-    for_each_own_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         if (any_set(sources.invariant.row(place.row)))
           builders[at(worker)].add(place, rows.row(place.row), most);

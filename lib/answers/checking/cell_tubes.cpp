@@ -41,8 +41,8 @@ void CellTubes::go_to(std::int64_t cell) {
 
 bool CellTubes::passes(std::int64_t u) const {
   for (std::size_t i = 0; may_pass_ && i < first_.size(); ++i) {
-    const std::int64_t part = tubes_->covering.input_part[i][static_cast<std::size_t>(u)];
-    if (tubes_->passes[i][static_cast<std::size_t>(first_[i] + part)] != 0) return true;
+    const std::int64_t offset = tubes_->covering.input_offset[i][static_cast<std::size_t>(u)];
+    if (tubes_->passes[i][static_cast<std::size_t>(first_[i] + offset)] != 0) return true;
   }
   return false;
 }

@@ -14,7 +14,7 @@ namespace coordreq {
 
 /// How the posts of a check relate to those of the analysis: what a difference between claim and check means.
 enum class PostsAre : std::uint8_t {
-  those_of_the_result,  ///< every claim must be met exactly
+  those_of_the_result,  ///< every claim must hold exactly
   perhaps_others,  ///< also sound, but perhaps not those of the analysis that wrote the file: a claim of more
                    ///< safety is wrong, one of less is left open
 };
@@ -28,7 +28,7 @@ struct CheckContext {
   const Posts* posts = nullptr;
   const Tubes* tubes = nullptr;  ///< null: cells are safe at the samples alone
   PostsAre posts_are = PostsAre::those_of_the_result;
-  bool is_full = false;  ///< checks that go over all cells many times are asked for, too
+  bool is_full = false;  ///< checks that go over all cells many times are requested, too
 
   /// Posts may be others than those of the analysis: a claim of less safety is left open.
   [[nodiscard]] bool sound_only() const { return posts_are == PostsAre::perhaps_others; }

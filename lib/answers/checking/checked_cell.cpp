@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -49,28 +49,29 @@ void CheckedCell::find_admitted() {
   }
 }
 
-std::string CheckedCell::place() const {
-  return place_of(*context_.grid, cell_);
+std::string CheckedCell::location() const {
+  return location_of(*context_.grid, cell_);
 }
 
 void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) {
   tally.add_wrong(cell.number(), [&] {
-    return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+    return fmt::format("{}: {}, expected {}", cell.location(), step_text(claimed), step_text(expected));
   });
 }
 
 void add_choices(const CheckContext& context, Tally& tally, const CheckedCell& cell,
-                 const BitDifference& found, const std::string& words) {
+                 const BitDifference& difference, const std::string& label) {
   tally.add_checked(1);
-  if (found.extra > 0) {
+  if (difference.extra > 0) {
     tally.add_wrong(cell.number(), [&] {
-      return fmt::format("{}: {}{} too many", cell.place(), found.extra, words.empty() ? "" : " " + words);
+      return fmt::format("{}: {}{} too many", cell.location(), difference.extra,
+                         label.empty() ? "" : " " + label);
     });
-  } else if (found.fewer && context.sound_only()) {
+  } else if (difference.fewer && context.sound_only()) {
     tally.add_unproven();
-  } else if (found.fewer) {
+  } else if (difference.fewer) {
     tally.add_wrong(cell.number(), [&] {
-      return fmt::format("{}: {} are missing", cell.place(), words.empty() ? "some" : words);
+      return fmt::format("{}: {} are missing", cell.location(), label.empty() ? "some" : label);
     });
   }
 }

@@ -27,15 +27,15 @@ class CheckedCell {
   [[nodiscard]] std::int64_t number() const { return cell_; }
   [[nodiscard]] std::size_t at() const { return static_cast<std::size_t>(cell_); }
   /// "x1 = 0.1, x2 = 0".
-  [[nodiscard]] std::string place() const;
+  [[nodiscard]] std::string location() const;
   /// Whether the file claims that the cell is in S.
   [[nodiscard]] bool is_safe() const { return safe_[at()] != 0; }
   /// Whether the file claims that the cell is in K; a cell outside S is not.
   [[nodiscard]] bool is_invariant() const { return is_safe() && invariant_[at()] != 0; }
 
   /// Whether the file claims that the cell is in a goal that ends the task. It counts as T, and nothing is
-  /// asked of the cells that follow.
-  [[nodiscard]] bool is_over() const { return arrival_ != nullptr && (*arrival_)[at()] == 0; }
+  /// required of the cells that follow.
+  [[nodiscard]] bool is_terminal() const { return arrival_ != nullptr && (*arrival_)[at()] == 0; }
 
   /// C(x): [joint input] 1 or 0; all 0 outside K.
   [[nodiscard]] const std::vector<std::uint8_t>& admitted() const { return admitted_; }
@@ -45,18 +45,18 @@ class CheckedCell {
     return all_stay_;
   }
 
-  /// Minima asked for and cells looked at for them, so far: a measure of the work.
+  /// Minima requested and cells looked at for them, so far: a measure of the work.
   [[nodiscard]] std::int64_t looked_at() const { return posts_.looked_at(); }
 
   // @pre unchecked: for the functions below, is_safe()
   [[nodiscard]] bool is_allowed(std::int64_t u) {
     return !is_forbidden(u) && (!listed_ || listed_->test(cell_, u));
   }
-  /// Whether `allow` does not permit u, which then counts as blocked where classes act by themselves. A joint
+  /// Whether `allow` does not permit u, which then counts as blocked where classes act independently. A joint
   /// input that a controller file does not list is not forbidden.
   [[nodiscard]] bool is_forbidden(std::int64_t u) { return allow_ && !allow_->holds(u); }
   /// Whether the tube under u is safe; true if only samples count.
-  [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
+  [[nodiscard]] bool is_tube_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
   /// min over y in f(x, u) of values[y]; `forever` if the post has left safely, `blocked` if there is none.
   /// @param values over all cells; minima are remembered by the address of the values
   /// @pre unchecked: for the same values the same `blocked` and `forever`.
@@ -68,7 +68,7 @@ class CheckedCell {
       memory_.assign(posts_.memory_size(), PostMinima::kNotKnown);
     }
     const std::int32_t value = posts_.least(u, values, blocked, forever, memory_);
-    return value != blocked && !is_way_safe(u) ? blocked : value;
+    return value != blocked && !is_tube_safe(u) ? blocked : value;
   }
 
  private:
@@ -93,8 +93,8 @@ class CheckedCell {
 /// Adds a wrong claim about steps, coded as in `/delay`, to the tally.
 void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected);
 /// Adds stored choices to the tally, those that are missing as open if posts may be others than those of the
-/// analysis. @param words "actions", or empty
+/// analysis. @param label "actions", or empty
 void add_choices(const CheckContext& context, Tally& tally, const CheckedCell& cell,
-                 const BitDifference& found, const std::string& words);
+                 const BitDifference& difference, const std::string& label);
 
 }  // namespace coordreq

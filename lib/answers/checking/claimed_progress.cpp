@@ -27,7 +27,7 @@ bool ClaimedProgress::leaves_through_safe_side(const CheckedCell& cell, std::int
     const PostTable& table = *context_.posts->tables[i];
     const std::size_t entry =
         table.entry_of(*context_.grid, cell.number()) +
-        static_cast<std::size_t>(context_.posts->input_part[i][static_cast<std::size_t>(u)]);
+        static_cast<std::size_t>(context_.posts->input_offset[i][static_cast<std::size_t>(u)]);
     const IndexRange raw = table.entries[entry];
     if (dimension.below == Outside::safe && raw.first < 0) return true;
     if (dimension.above == Outside::safe && raw.last >= dimension.count) return true;
@@ -48,8 +48,8 @@ std::int32_t ClaimedProgress::best(CheckedCell& cell) const {
   for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
     if (cell.admitted()[u] == 0) continue;
     is_none = false;
-    const std::int32_t own = worst(cell, static_cast<std::int64_t>(u));
-    result = is_given ? std::max(result, own) : std::min(result, own);
+    const std::int32_t value = worst(cell, static_cast<std::int64_t>(u));
+    result = is_given ? std::max(result, value) : std::min(result, value);
   }
   return is_none ? kUnbounded : result;
 }
@@ -57,8 +57,8 @@ std::int32_t ClaimedProgress::best(CheckedCell& cell) const {
 std::int32_t ClaimedProgress::limit(CheckedCell& cell) const {
   // What is lost in x itself follows from the equation of arrival: the best step loses no more.
   if (context_.spec->goal_then == GoalThen::stay) return best(cell);
-  const std::int32_t own = arrival_[cell.at()];
-  return is_lasting_ && own == 0 ? kUnbounded - 1 : own - 1;
+  const std::int32_t value = arrival_[cell.at()];
+  return is_lasting_ && value == 0 ? kUnbounded - 1 : value - 1;
 }
 
 std::vector<std::uint8_t> ClaimedProgress::of(CheckedCell& cell) const {

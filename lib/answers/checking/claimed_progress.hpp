@@ -18,7 +18,7 @@ class ClaimedProgress {
   [[nodiscard]] std::int32_t arrival(std::size_t cell) const { return arrival_[cell]; }
   /// Whether P holds in the cell: the goal can be forced from it, and it is not in the goal, or the goal
   /// lasts.
-  [[nodiscard]] bool is_on_the_way(std::size_t cell) const {
+  [[nodiscard]] bool is_before_goal(std::size_t cell) const {
     return arrival_[cell] >= (is_lasting_ ? 0 : 1) && arrival_[cell] != kUnbounded;
   }
   /// The greatest arrival in f(x,u); kUnbounded if a cell outside K may be in it, or T by way of a `safe`
@@ -27,9 +27,9 @@ class ClaimedProgress {
   /// The least arrival that agents can force with the next sample; `given`: the greatest. kUnbounded if C is
   /// empty.
   [[nodiscard]] std::int32_t best(CheckedCell& cell) const;
-  /// The greatest worst() of a step of P. @pre unchecked: is_on_the_way()
+  /// The greatest worst() of a step of P. @pre unchecked: is_before_goal()
   [[nodiscard]] std::int32_t limit(CheckedCell& cell) const;
-  /// P(x) as [joint input] 1 or 0. @pre unchecked: is_on_the_way()
+  /// P(x) as [joint input] 1 or 0. @pre unchecked: is_before_goal()
   [[nodiscard]] std::vector<std::uint8_t> of(CheckedCell& cell) const;
 
   /// Whether f(x,u) may be T by way of a `safe` side.

@@ -13,7 +13,7 @@
 namespace coordreq {
 
 /// A number of steps in words.
-[[nodiscard]] std::string step_words(std::int32_t value);
+[[nodiscard]] std::string step_text(std::int32_t value);
 [[nodiscard]] std::int32_t one_more(std::int32_t steps);
 /// Number of entries that are not 0.
 [[nodiscard]] std::uint64_t count_members(const std::vector<std::uint8_t>& set);
@@ -22,7 +22,7 @@ namespace coordreq {
 class ClaimedValues {
  public:
   /// @pre unchecked: `claims` outlives this object.
-  ClaimedValues(const Claims& claims, const ProblemSpec& spec, const RequirementSpec& asked);
+  ClaimedValues(const Claims& claims, const ProblemSpec& spec, const RequirementSpec& requirement);
 
   [[nodiscard]] std::int32_t operator()(std::size_t cell) const {
     if (values_ != nullptr) return (*values_)[cell];

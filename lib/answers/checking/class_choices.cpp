@@ -13,16 +13,16 @@ ClassChoices::ClassChoices(const ProblemSpec& spec, const UniformGrid& grid, con
   const char* const pointer = rules == Rules::then ? "/silence/then" : "/silence/actions";
   for (const std::vector<std::int32_t>& agents : partition) {
     InputClass& input_class = inputs_.emplace_back(class_of(spec, inputs, agents));
-    Class& own = classes_.emplace_back(Class{input_class.parts(), {}, rules == Rules::none});
+    Class& entry = classes_.emplace_back(Class{input_class.offsets(), {}, rules == Rules::none});
     input_class.tabulate();
     for (const std::int32_t i : agents) {
       if (rules == Rules::none) continue;
       const auto& rule = rules == Rules::then ? spec.silence->then[at(i)] : spec.silence->actions[at(i)];
       if (rule) {
-        own.rules.emplace_back(spec, *rule, grid, inputs, "the condition",
-                               member_pointer(pointer, spec.agents[at(i)].name));
+        entry.rules.emplace_back(spec, *rule, grid, inputs, "the condition",
+                                 member_pointer(pointer, spec.agents[at(i)].name));
       } else {
-        own.asks_controller = true;
+        entry.asks_controller = true;
       }
     }
   }
@@ -31,14 +31,14 @@ ClassChoices::ClassChoices(const ProblemSpec& spec, const UniformGrid& grid, con
 template <class ForEachJoint>
 void ClassChoices::find(std::int64_t cell, const ForEachJoint& for_each_joint) {
   for (std::size_t c = 0; c < actions_.size(); ++c) {
-    Class& own = classes_[c];
+    Class& entry = classes_[c];
     std::vector<std::uint8_t>& actions = actions_[c];
-    actions.assign(own.parts.size(), own.asks_controller ? 0 : 1);
-    if (own.asks_controller) for_each_joint([&](std::int64_t u) { actions[at(inputs_[c].action(u))] = 1; });
-    for (PermittedInputs& rule : own.rules) {
+    actions.assign(entry.offsets.size(), entry.asks_controller ? 0 : 1);
+    if (entry.asks_controller) for_each_joint([&](std::int64_t u) { actions[at(inputs_[c].action(u))] = 1; });
+    for (PermittedInputs& rule : entry.rules) {
       rule.go_to(cell);
       for (std::size_t a = 0; a < actions.size(); ++a) {
-        if (actions[a] != 0 && !rule.holds(own.parts[a])) actions[a] = 0;
+        if (actions[a] != 0 && !rule.holds(entry.offsets[a])) actions[a] = 0;
       }
     }
   }
@@ -73,8 +73,8 @@ std::vector<ClassChoices::Numbers> ClassChoices::numbers() const {
 }
 
 bool ClassChoices::is_empty() const {
-  return std::ranges::any_of(actions_,
-                             [](const auto& own) { return std::ranges::find(own, 1) == own.end(); });
+  return std::ranges::any_of(
+      actions_, [](const auto& actions) { return std::ranges::find(actions, 1) == actions.end(); });
 }
 
 ClassChoices::Numbers ClassChoices::joint() const {

@@ -54,7 +54,7 @@ class ClassChoices {
 
  private:
   struct Class {
-    Numbers parts;                      ///< [action] what it adds to the number of a joint input
+    Numbers offsets;                    ///< [action] what it adds to the number of a joint input
     std::deque<PermittedInputs> rules;  ///< of its agents
     bool asks_controller;               ///< an agent has no rule
   };

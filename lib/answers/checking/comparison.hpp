@@ -16,10 +16,10 @@ class Comparison {
   explicit Comparison(std::string check) : tally_(std::move(check)) {}
 
   template <class Number>
-  void expect(std::string_view what, Number found, Number expected) {
+  void expect(std::string_view what, Number value, Number expected) {
     tally_.add_checked(1);
-    if (found == expected) return;
-    tally_.add_wrong(number_++, [&] { return fmt::format("{}: {}, expected {}", what, found, expected); });
+    if (value == expected) return;
+    tally_.add_wrong(number_++, [&] { return fmt::format("{}: {}, expected {}", what, value, expected); });
   }
   [[nodiscard]] Finding finding() const { return tally_.finding(); }
 

@@ -100,9 +100,9 @@ bool CornerTruth::fails_at_a_point(const std::vector<RationalInterval>& box) {
     for (std::size_t j = 0; j < variables_.size(); ++j) {
       const RationalInterval& range = box[variables_[j]];
       const bool upper = (corner >> j & 1U) != 0;
-      Rational place = upper ? range.upper : range.lower;
-      if (corner == std::size_t{1} << n) place = (range.lower + range.upper) / 2;
-      point[variables_[j]] = point_of(place);
+      Rational coordinate = upper ? range.upper : range.lower;
+      if (corner == std::size_t{1} << n) coordinate = (range.lower + range.upper) / 2;
+      point[variables_[j]] = point_of(coordinate);
     }
     if (exact_.condition(point) == Truth::no) return true;
   }

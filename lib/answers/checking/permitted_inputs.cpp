@@ -24,12 +24,12 @@ std::vector<std::int32_t> inputs_in(const Program& condition, const ProblemSpec&
 }  // namespace
 
 PermittedInputs::PermittedInputs(const ProblemSpec& spec, const Program& condition, const UniformGrid& grid,
-                                 const InputSpace& inputs, std::string words, std::string pointer)
+                                 const InputSpace& inputs, std::string label, std::string pointer)
     : spec_(spec),
       condition_(condition),
       grid_(grid),
       inputs_(inputs),
-      words_(std::move(words)),
+      label_(std::move(label)),
       pointer_(std::move(pointer)),
       used_(inputs, inputs_in(condition, spec)),
       indices_(2 * grid.size() + inputs.size(), -1),
@@ -76,7 +76,7 @@ bool PermittedInputs::decide(std::int64_t u) {
   const Truth truth =
       decider_.decide(fast_, [this]() -> std::span<const RationalInterval> { return exact_; });
   if (truth == Truth::undecided && !may_not_know(condition_))
-    throw SpecError(words_ + " cannot be decided at a grid point", pointer_);
+    throw SpecError(label_ + " cannot be decided at a grid point", pointer_);
   return truth == Truth::yes;
 }
 

@@ -14,14 +14,13 @@
 namespace coordreq {
 
 /// Whether a condition over states and inputs, such as `allow`, holds at a cell and a joint input: at the
-/// centre of the cell, but a condition on memories is asked of the whole cell where `safe` is, and does not
-/// hold if undecided. Remembers what it has been asked until a state that it mentions changes. One object a
-/// thread.
+/// centre of the cell, but a condition on memories is evaluated on the whole cell where `safe` is, and does
+/// not hold if undecided. Remembers its answers until a state that it mentions changes. One object a thread.
 class PermittedInputs {
  public:
-  /// @pre unchecked: the arguments outlive this object. @param words, pointer name the condition in errors
+  /// @pre unchecked: the arguments outlive this object. @param label, pointer name the condition in errors
   PermittedInputs(const ProblemSpec& spec, const Program& condition, const UniformGrid& grid,
-                  const InputSpace& inputs, std::string words, std::string pointer);
+                  const InputSpace& inputs, std::string label, std::string pointer);
 
   void go_to(std::int64_t cell);
   /// @pre unchecked: go_to() was called. @throws SpecError where the condition cannot be decided
@@ -43,13 +42,13 @@ class PermittedInputs {
   const Program& condition_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
-  std::string words_, pointer_;
+  std::string label_, pointer_;
   InputClass used_;                    ///< the inputs that the condition mentions
   std::vector<std::size_t> states_;    ///< that it mentions, its point or its cell
   std::vector<std::int64_t> indices_;  ///< by slot, of the pair looked at; then of states once more
   std::vector<std::uint8_t> known_;    ///< by choice of inputs, at indices_; empty: too many
   ConditionDecider decider_;
-  std::unique_ptr<CellTruth> of_cells_;  ///< used instead, if memories are asked of whole cells
+  std::unique_ptr<CellTruth> of_cells_;  ///< used instead, if memories are evaluated on whole cells
   std::vector<Interval> fast_;           ///< by slot
   std::vector<RationalInterval> exact_;
 };

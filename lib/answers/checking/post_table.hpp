@@ -18,20 +18,20 @@ struct PostTable {
   std::vector<std::size_t> inputs;  ///< ascending
   std::vector<IndexRange> entries;  ///< row-major over `states`, then `inputs`
   std::vector<std::int64_t>
-      places;  ///< [entry] its place in the whole table, ascending; empty if no entry is left out
+      positions;  ///< [entry] its position in the whole table, ascending; empty if no entry is left out
   std::vector<std::int64_t> state_stride;  ///< one for each state of the spec; 0 if it has no influence
   std::vector<std::int64_t> input_stride;
   bool exact = true;  ///< the ranges are those of the contract, not only enclosures of them
 
   /// Place of an entry in a table that leaves none out.
-  [[nodiscard]] std::int64_t place_of(std::size_t entry) const {
-    return places.empty() ? static_cast<std::int64_t>(entry) : places[entry];
+  [[nodiscard]] std::int64_t position_of(std::size_t entry) const {
+    return positions.empty() ? static_cast<std::int64_t>(entry) : positions[entry];
   }
   /// The entry with a place; nothing if it is left out.
-  [[nodiscard]] std::optional<std::size_t> find(std::int64_t place) const;
+  [[nodiscard]] std::optional<std::size_t> find(std::int64_t position) const;
   /// The entry at a place. @pre the entry is not left out
-  [[nodiscard]] const IndexRange& at(std::int64_t place) const {
-    const std::optional<std::size_t> found = find(place);
+  [[nodiscard]] const IndexRange& at(std::int64_t position) const {
+    const std::optional<std::size_t> found = find(position);
     REQUIRES(found.has_value());
     return entries[*found];
   }
@@ -40,12 +40,12 @@ struct PostTable {
 };
 
 /// The places of the entries of some cells, with all inputs, ascending.
-[[nodiscard]] std::vector<std::int64_t> entry_places(const PostTable& table, const UniformGrid& grid,
-                                                     const InputSpace& inputs,
-                                                     const std::vector<std::int64_t>& cells);
+[[nodiscard]] std::vector<std::int64_t> entry_positions(const PostTable& table, const UniformGrid& grid,
+                                                        const InputSpace& inputs,
+                                                        const std::vector<std::int64_t>& cells);
 
 /// The part of a whole table for some cells; all of it if `cells` is empty.
-[[nodiscard]] PostTable part_of(const PostTable& whole, const UniformGrid& grid, const InputSpace& inputs,
-                                const std::vector<std::int64_t>& cells);
+[[nodiscard]] PostTable subset_of(const PostTable& whole, const UniformGrid& grid, const InputSpace& inputs,
+                                  const std::vector<std::int64_t>& cells);
 
 }  // namespace coordreq

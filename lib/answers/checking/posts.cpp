@@ -49,11 +49,11 @@ Posts make_posts(const UniformGrid& grid, const InputSpace& inputs, const std::v
     auto& resolved = posts.resolved.emplace_back();
     resolved.reserve(table.entries.size());
     for (const IndexRange& raw : table.entries) resolved.push_back(after_leaving(raw, grid[i]));
-    auto& parts = posts.input_part.emplace_back();
+    auto& offsets = posts.input_offset.emplace_back();
     for (std::int64_t u = 0; u < inputs.count(); ++u) {
-      std::int64_t part = 0;
-      for (const std::size_t j : table.inputs) part += inputs.index(u, j) * table.input_stride[j];
-      parts.push_back(static_cast<std::int32_t>(part));
+      std::int64_t offset = 0;
+      for (const std::size_t j : table.inputs) offset += inputs.index(u, j) * table.input_stride[j];
+      offsets.push_back(static_cast<std::int32_t>(offset));
     }
     std::int64_t choices = 1;
     for (const std::size_t j : table.inputs) choices *= inputs[j].count();
@@ -65,7 +65,7 @@ Posts make_posts(const UniformGrid& grid, const InputSpace& inputs, const std::v
 PostMinima::PostMinima(const Posts& posts)
     : posts_(&posts),
       grid_(posts.grid),
-      input_part_(&posts.input_part),
+      input_offset_(&posts.input_offset),
       split_((posts.tables.size() + 1) / 2),
       different_(posts.tables.size()),
       ranks_(posts.tables.size()),
@@ -87,11 +87,11 @@ void PostMinima::go_to(std::int64_t cell) {
     const std::int64_t width = std::int64_t{window_[i].last} - window_[i].first + 1;
     if (i < split_) outer_cells = std::min(outer_cells * width, kMostMinima + 1);
   }
-  parts_ = outer_cells * inner_boxes_;
+  minima_ = outer_cells * inner_boxes_;
   // With few joint inputs and many minima, clearing the memory costs more than it saves.
   const std::int64_t most = std::min(kMostMinima, 4 * posts_->joint_inputs);
   if (boxes_ > most) boxes_ = 0;
-  if (parts_ > most || split_ == ranks_.size()) parts_ = 0;
+  if (minima_ > most || split_ == ranks_.size()) minima_ = 0;
 }
 
 void PostMinima::find_ranges(std::size_t i, std::int64_t cell) {
@@ -100,11 +100,11 @@ void PostMinima::find_ranges(std::size_t i, std::int64_t cell) {
   std::vector<ResolvedRange>& different = different_[i];
   different.clear();
   window_[i] = {INT32_MAX, INT32_MIN};
-  for (std::size_t part = 0; part < ranks_[i].size(); ++part) {
-    const ResolvedRange& range = posts_->resolved[i][first + part];
+  for (std::size_t offset = 0; offset < ranks_[i].size(); ++offset) {
+    const ResolvedRange& range = posts_->resolved[i][first + offset];
     const auto known = std::find_if(different.begin(), different.end(),
                                     [&range](const ResolvedRange& other) { return same(range, other); });
-    ranks_[i][part] = known - different.begin();
+    ranks_[i][offset] = known - different.begin();
     if (known != different.end()) continue;
     different.push_back(range);
     if (range.blocked || range.all_left()) continue;

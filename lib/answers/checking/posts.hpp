@@ -21,7 +21,7 @@ struct Posts {
   std::vector<const PostTable*> tables;
   std::vector<std::vector<ResolvedRange>> resolved;  ///< [state][entry]
   std::vector<std::vector<std::int32_t>>
-      input_part;                           ///< [state][u] entry, counted from the first entry of the cell
+      input_offset;                         ///< [state][u] entry, counted from the first entry of the cell
   std::vector<std::int64_t> input_choices;  ///< [state]: entries of one cell
 };
 /// @pre unchecked: `grid` and `tables` outlive the result.
@@ -41,8 +41,8 @@ class PostMinima {
 
   void go_to(std::int64_t cell);
   /// Number of minima that are remembered.
-  [[nodiscard]] std::size_t memory_size() const { return static_cast<std::size_t>(boxes_ + parts_); }
-  /// Minima asked for and cells looked at for them, so far: a measure of the work.
+  [[nodiscard]] std::size_t memory_size() const { return static_cast<std::size_t>(boxes_ + minima_); }
+  /// Minima requested and cells looked at for them, so far: a measure of the work.
   [[nodiscard]] std::int64_t looked_at() const { return looked_at_; }
   /// min over y in f(x, u) of values[y]; `forever` if the post has left safely, `blocked` if there is none.
   /// @param values over all cells
@@ -54,7 +54,7 @@ class PostMinima {
     ++looked_at_;
     for (std::size_t i = 0; i < ranks_.size(); ++i) {
       const std::int64_t rank =
-          ranks_[i][static_cast<std::size_t>((*input_part_)[i][static_cast<std::size_t>(u)])];
+          ranks_[i][static_cast<std::size_t>((*input_offset_)[i][static_cast<std::size_t>(u)])];
       box_[i] = &different_[i][static_cast<std::size_t>(rank)];
       box = box * static_cast<std::int64_t>(different_[i].size()) + rank;
     }
@@ -84,14 +84,14 @@ class PostMinima {
   [[nodiscard]] std::int32_t least_from(std::size_t i, std::int64_t cell, std::int64_t window,
                                         std::int64_t inner_box, const Value* values, std::int32_t forever,
                                         std::vector<std::int32_t>& memory) {
-    if (i != split_ || parts_ == 0) return least_over(i, cell, window, inner_box, values, forever, memory);
+    if (i != split_ || minima_ == 0) return find_least(i, cell, window, inner_box, values, forever, memory);
     std::int32_t& known = memory[static_cast<std::size_t>(boxes_ + window * inner_boxes_ + inner_box)];
-    if (known == kNotKnown) known = least_over(i, cell, window, inner_box, values, forever, memory);
+    if (known == kNotKnown) known = find_least(i, cell, window, inner_box, values, forever, memory);
     return known;
   }
 
   template <class Value>
-  [[nodiscard]] std::int32_t least_over(std::size_t i, std::int64_t cell, std::int64_t window,
+  [[nodiscard]] std::int32_t find_least(std::size_t i, std::int64_t cell, std::int64_t window,
                                         std::int64_t inner_box, const Value* values, std::int32_t forever,
                                         std::vector<std::int32_t>& memory) {
     const GridDimension& dimension = (*grid_)[i];
@@ -100,10 +100,11 @@ class PostMinima {
     looked_at_ += range.last - range.first + 1;
     for (std::int64_t k = range.first; k <= range.last; ++k) {
       const std::int64_t next = cell + (k < dimension.count ? k : k - dimension.count) * grid_->stride(i);
-      const std::int64_t place = window * (window_[i].last - window_[i].first + 1) + (k - window_[i].first);
+      const std::int64_t position =
+          window * (window_[i].last - window_[i].first + 1) + (k - window_[i].first);
       const std::int32_t value = i + 1 == box_.size()
                                      ? values[next]
-                                     : least_from(i + 1, next, place, inner_box, values, forever, memory);
+                                     : least_from(i + 1, next, position, inner_box, values, forever, memory);
       least = std::min(least, value);
     }
     return least;
@@ -111,7 +112,7 @@ class PostMinima {
 
   const Posts* posts_;
   const UniformGrid* grid_;
-  const std::vector<std::vector<std::int32_t>>* input_part_;
+  const std::vector<std::vector<std::int32_t>>* input_offset_;
   std::size_t split_;  ///< minima over the dimensions from here on are remembered
   std::vector<std::vector<ResolvedRange>> different_;  ///< [state] the different ranges of this cell
   std::vector<std::vector<std::int64_t>> ranks_;  ///< [state][choice of its inputs] index into different_
@@ -120,7 +121,7 @@ class PostMinima {
   std::int64_t inner_boxes_ = 1;
   std::int64_t boxes_ = 0;  ///< remembered boxes; 0: too many
   std::int64_t looked_at_ = 0;
-  std::int64_t parts_ = 0;  ///< remembered minima over the last dimensions; 0: too many
+  std::int64_t minima_ = 0;  ///< remembered minima over the last dimensions; 0: too many
 };
 
 }  // namespace coordreq

@@ -13,14 +13,14 @@ std::int32_t steps_outside(const CheckedCell& cell) {
 std::int32_t steps_by_definition(CheckedCell& cell, const ClassChoices& choices,
                                  const std::vector<std::int32_t>& steps,
                                  const std::optional<std::int32_t>& most, std::int32_t least) {
-  const bool is_over = cell.is_over();
-  bool any = is_over;
+  const bool is_terminal = cell.is_terminal();
+  bool any = is_terminal;
   std::int32_t worst = kUnbounded;
-  for (std::int64_t u = 0; !is_over && u < choices.joint_inputs() && worst > least; ++u) {
+  for (std::int64_t u = 0; !is_terminal && u < choices.joint_inputs() && worst > least; ++u) {
     if (!choices.has(u)) continue;
     any = true;
-    const std::int32_t own = cell.is_forbidden(u) ? least : cell.least(u, steps, least);
-    worst = std::min(worst, std::max(own, least));
+    const std::int32_t value = cell.is_forbidden(u) ? least : cell.least(u, steps, least);
+    worst = std::min(worst, std::max(value, least));
   }
   const std::int32_t result = any ? one_more(worst) : 0;
   return most ? std::min(result, *most) : result;
@@ -49,13 +49,13 @@ void compare_trigger(const CheckContext& context, Tally& tally, const CheckedCel
 }
 
 void compare_actions(const CheckContext& context, Tally& tally, const CheckedCell& cell,
-                     const PartitionClaims& claims, const ClassChoices& choices, const std::string& words) {
-  BitDifference found;
+                     const PartitionClaims& claims, const ClassChoices& choices, const std::string& label) {
+  BitDifference all;
   for (std::size_t c = 0; c < claims.actions.size(); ++c) {
-    const BitDifference own = compare_bits(*claims.actions[c], cell.at(), choices.actions()[c]);
-    found = {.extra = found.extra + own.extra, .fewer = found.fewer || own.fewer};
+    const BitDifference difference = compare_bits(*claims.actions[c], cell.at(), choices.actions()[c]);
+    all = {.extra = all.extra + difference.extra, .fewer = all.fewer || difference.fewer};
   }
-  add_choices(context, tally, cell, found, words);
+  add_choices(context, tally, cell, all, label);
 }
 
 }  // namespace coordreq

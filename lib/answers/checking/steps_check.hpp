@@ -34,7 +34,7 @@ void compare_trigger(const CheckContext& context, Tally& tally, const CheckedCel
                      const std::vector<std::int32_t>& triggers);
 /// Compares the stored actions of all classes at a cell with those that they can choose.
 void compare_actions(const CheckContext& context, Tally& tally, const CheckedCell& cell,
-                     const PartitionClaims& claims, const ClassChoices& choices, const std::string& words);
+                     const PartitionClaims& claims, const ClassChoices& choices, const std::string& label);
 
 /// The check of steps of every partition. Partition: its claims and findings, which all threads share.
 template <class Partition>
@@ -57,8 +57,8 @@ class StepsCheck : public AnswerCheck {
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
     for (const Partition& partition : partitions_) {
-      const std::vector<Finding> own = partition.findings();
-      result.insert(result.end(), own.begin(), own.end());
+      const std::vector<Finding> findings = partition.findings();
+      result.insert(result.end(), findings.begin(), findings.end());
     }
     return result;
   }

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "answers/checking/answer_check.hpp"
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "answers/step_codes.hpp"
 #include "base/index.hpp"
 #include "spec/partition_names.hpp"
@@ -147,7 +147,8 @@ class CoalitionCheck : public AnswerCheck {
     coalition_.add_checked(1);
     if (chosen_[x] != expected) {
       coalition_.add_wrong(cell, [&] {
-        return fmt::format("{}: {}, expected {}", place_of(grid_, cell), words(chosen_[x]), words(expected));
+        return fmt::format("{}: {}, expected {}", location_of(grid_, cell), choice_text(chosen_[x]),
+                           choice_text(expected));
       });
     }
     check_pairs(cell, expected);
@@ -164,7 +165,7 @@ class CoalitionCheck : public AnswerCheck {
       pairs_.add_checked(1);
       if ((critical_pairs().members[pair][x] != 0) == critical) continue;
       pairs_.add_wrong(cell, [&] {
-        return fmt::format("{}: {} is {}critical", place_of(grid_, cell), pair_names_[pair],
+        return fmt::format("{}: {} is {}critical", location_of(grid_, cell), pair_names_[pair],
                            critical ? "" : "not ");
       });
     }
@@ -174,15 +175,15 @@ class CoalitionCheck : public AnswerCheck {
     expect_size(coalition_, "numbers in cells", length(choice_.cells), counted(candidates_.size()));
     expect_size(pairs_, "numbers in cells", length(critical_pairs().cells), counted(pair_names_.size()));
     for (std::size_t p = 0; p < choice_.cells.size(); ++p) {
-      const auto found = std::count(chosen_.begin(), chosen_.end(), static_cast<std::int32_t>(p));
+      const auto actual = std::count(chosen_.begin(), chosen_.end(), static_cast<std::int32_t>(p));
       expect_size(coalition_, "cells of " + candidates_[p].name, static_cast<std::int64_t>(choice_.cells[p]),
-                  found);
+                  actual);
     }
     for (std::size_t pair = 0; pair < critical_pairs().cells.size(); ++pair) {
-      const auto found =
+      const auto actual =
           std::count(critical_pairs().members[pair].begin(), critical_pairs().members[pair].end(), 1);
       expect_size(pairs_, "cells of " + pair_names_[pair],
-                  static_cast<std::int64_t>(critical_pairs().cells[pair]), found);
+                  static_cast<std::int64_t>(critical_pairs().cells[pair]), actual);
     }
   }
 
@@ -202,14 +203,14 @@ class CoalitionCheck : public AnswerCheck {
     return static_cast<std::int64_t>(counts.size());
   }
 
-  void expect_size(Tally& tally, const std::string& what, std::int64_t claimed, std::int64_t found) const {
+  void expect_size(Tally& tally, const std::string& what, std::int64_t claimed, std::int64_t actual) const {
     tally.add_checked(1);
-    if (claimed == found) return;
+    if (claimed == actual) return;
     tally.add_wrong(grid_.cells() + static_cast<std::int64_t>(choice_.cells.size()),
-                    [&] { return fmt::format("{}: {}, expected {}", what, claimed, found); });
+                    [&] { return fmt::format("{}: {}, expected {}", what, claimed, actual); });
   }
 
-  [[nodiscard]] std::string words(std::int32_t value) const {
+  [[nodiscard]] std::string choice_text(std::int32_t value) const {
     if (value == kNoPartitionSuffices) return "no partition";
     if (value == kOutsideSafe) return "not safe";
     return value == kOutsideInvariant ? "not invariant" : candidates_[at(value)].name;

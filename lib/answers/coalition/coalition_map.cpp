@@ -117,7 +117,7 @@ LevelMap choose_all(CoalitionMap& map, const std::vector<std::vector<std::size_t
   constexpr std::int64_t kGrain = 64;
   const RowShare* const share = layers.front()->layers_of.share();
   LevelRows<Level> chosen(invariant.rows(), {{{invariant.row_length(), 1, {}, {}}}}, false, share);
-  for_each_own_row(team, share, invariant.rows(), kGrain, [&](ThreadTeam::Range range, int) {
+  for_each_local_row(team, share, invariant.rows(), kGrain, [&](ThreadTeam::Range range, int) {
     RowChooser<Level> chooser(map, chosen, apart, invariant, layers);
     for (std::int64_t row = range.begin; row < range.end; ++row) chooser.choose(row);
   });
@@ -129,9 +129,9 @@ std::vector<std::vector<std::size_t>> pairs_apart(const CoalitionMap& map,
                                                   const std::vector<PartitionSpec>& partitions) {
   std::vector<std::vector<std::size_t>> apart;
   for (const CoalitionChoice& choice : map.choices) {
-    std::vector<std::size_t>& own = apart.emplace_back();
+    std::vector<std::size_t>& separated = apart.emplace_back();
     for (std::size_t pair = 0; pair < map.pairs.size(); ++pair) {
-      if (!are_together(partitions[choice.partition], map.pairs[pair])) own.push_back(pair);
+      if (!are_together(partitions[choice.partition], map.pairs[pair])) separated.push_back(pair);
     }
   }
   return apart;
@@ -144,8 +144,8 @@ void count_cells(CoalitionMap& map, ThreadTeam& team) {
   for (std::size_t i = 0; i + 1 < histogram.finite.size(); ++i) map.cells[i] = histogram.finite[i + 1];
   const RowShare* const share = map.chosen.share();
   for (const CellSet& cells : map.critical) {
-    const RowShare::Range own = own_rows(share, cells.rows());
-    map.critical_cells.push_back(cells.count(own.begin, own.end));
+    const RowShare::Range local = local_rows(share, cells.rows());
+    map.critical_cells.push_back(cells.count(local.begin, local.end));
   }
   if (share != nullptr) share->ranks().add(map.critical_cells);
 }

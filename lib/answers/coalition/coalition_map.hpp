@@ -13,7 +13,7 @@ namespace coordreq {
 
 /// Who must talk to whom: for each cell x of K the most preferred partition P with delay_P(x) >= horizon,
 /// that is, the cheapest network with which the system stays in K for `horizon` steps though its classes do
-/// not hear from one another.
+/// not receive messages from one another.
 struct CoalitionMap {
   std::int64_t horizon = 0;              ///< steps
   std::vector<CoalitionChoice> choices;  ///< the partitions, the most preferred first

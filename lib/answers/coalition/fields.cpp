@@ -47,11 +47,11 @@ ResultArray coalition_array(const CoalitionMap& map, const Answers& answers) {
 
 /// The partitions that occur, the most preferred first, with their costs.
 std::function<void(const std::set<std::int32_t>&, Json&)> choices_of(const CoordinationSpec& coordination) {
-  return [own = std::make_shared<const CoordinationSpec>(coordination)](const std::set<std::int32_t>& found,
-                                                                        Json& head) {
+  return [stored = std::make_shared<const CoordinationSpec>(coordination)](
+             const std::set<std::int32_t>& values, Json& head) {
     head["choices"] = Json::array();
-    for (const CoalitionChoice& choice : order_of_preference(*own)) {
-      if (found.contains(static_cast<std::int32_t>(choice.partition)))
+    for (const CoalitionChoice& choice : order_of_preference(*stored)) {
+      if (values.contains(static_cast<std::int32_t>(choice.partition)))
         head["choices"].push_back({{"partition", choice.partition}, {"cost", nearest_double(choice.cost)}});
     }
   };
@@ -85,15 +85,16 @@ Fields coalition_fields(const ProblemSpec& spec) {
            std::vector<FieldAttribute>{flags({{kNoPartitionSuffices, "no_partition_suffices"},
                                               {kOutsideSafe, "not_safe"},
                                               {kOutsideInvariant, "not_invariant"}})},
-       .display = {.query = {.name = "partition",
-                           .words = "cheapest partition",
-                           .meanings = {{"no_partition_suffices", "none: no partition of the file suffices"},
-                                        {"not_safe", "none"},
-                                        {"not_invariant", "none"}},
-                           .group = "coalition",
-                           .heading = "without further contact",
-                           .attribute = "horizon"},
-                 .map = {.kind = "coalition", .legend = choices_of(spec.coordination)}}}};
+       .display = {
+           .query = {.name = "partition",
+                     .label = "cheapest partition",
+                     .meanings = {{"no_partition_suffices", "none: no partition of the file suffices"},
+                                  {"not_safe", "none"},
+                                  {"not_invariant", "none"}},
+                     .group = "coalition",
+                     .heading = "without further contact",
+                     .attribute = "horizon"},
+           .map = {.kind = "coalition", .legend = choices_of(spec.coordination)}}}};
   std::vector<std::string> pairs = pair_names(spec);
   if (pairs.empty()) return fields;
   const std::size_t count = pairs.size();
@@ -108,8 +109,8 @@ Fields coalition_fields(const ProblemSpec& spec) {
        .attributes = described("the two are together in every partition of least cost that suffices") +
                      counted_cells(count) +
                      std::vector<FieldAttribute>{flags({{0, "not_critical"}, {1, "critical"}})},
-       .display = {.query = {.name = "critical_pairs", .words = "critical pairs", .group = "coalition"},
-                 .map = {.kind = "pairs"}}});
+       .display = {.query = {.name = "critical_pairs", .label = "critical pairs", .group = "coalition"},
+                   .map = {.kind = "pairs"}}});
   return fields;
 }
 

@@ -27,7 +27,7 @@ HeldCells held_cells(AnalysisContext& context) {
   if (context.ranks == nullptr || !is_cut_before_tables(model))
     return {.order = model.order(), .begin = 0, .end = model.grid().points()};
   context.share.emplace(*context.ranks, cut_into_shares(model, nullptr, context.ranks->count()));
-  const RowShare::Range rows = context.share->own();
+  const RowShare::Range rows = context.share->local();
   const std::int64_t row = model.grid().row_length();
   return {.order = model.order(), .begin = rows.begin * row, .end = rows.end * row};
 }

@@ -66,7 +66,7 @@ void add_abstraction(Fields& fields, const ProblemSpec& spec) {
 
 using TableCache = LastValueCache<std::size_t, TransitionTable>;
 
-/// One end of all ranges of the table of a state. The table is written out when it is asked for, unless it is
+/// One end of all ranges of the table of a state. The table is written out on request, unless it is
 /// full: full tables have the order of the spec, and each process is asked for its own cells.
 ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t IndexRange::*end,
                        const std::shared_ptr<TableCache>& tables) {

@@ -19,17 +19,17 @@ bool is_share(float freedom) {
 /// @pre unchecked: the agents are there.
 void serialise(Archive& archive, const RowEngine& engine, ConventionFreedom& convention) {
   const std::int64_t cells = engine.grid().cells(), length = engine.row_length();
-  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  const RowShare::Range local = local_rows(engine.share(), engine.rows());
   for (ConventionFreedom::Agent& agent : convention.agents) {
     auto& [freedom, mean, full, histogram] = agent;  // every member, so that none is forgotten
     if (archive.is_loading()) freedom = ZeroedArray<float>(static_cast<std::size_t>(cells));
-    archive.grid_rows(number_rows(freedom.data(), length, engine.rows(), length), own, {&own, 1});
+    archive.grid_rows(number_rows(freedom.data(), length, engine.rows(), length), local, {&local, 1});
     archive.number(mean);
     archive.number(full);
     for (std::int64_t& count : histogram) archive.number(count);
     const auto is_count = [cells](std::int64_t count) { return 0 <= count && count <= cells; };
     archive.expect(
-        std::all_of(freedom.begin() + own.begin * length, freedom.begin() + own.end * length, is_share) &&
+        std::all_of(freedom.begin() + local.begin * length, freedom.begin() + local.end * length, is_share) &&
             mean >= 0 && mean <= 1.0000001 && is_count(full) &&
             std::all_of(histogram.begin(), histogram.end(), is_count),
         "an agent keeps a part of its actions that is none");
@@ -54,24 +54,24 @@ void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_
   }
 }
 
-ConventionFreedom find_parts(const AnalysisContext& context, const ConventionAnswer& convention,
-                             ThreadTeam& team) {
+ConventionFreedom find_freedom(const AnalysisContext& context, const ConventionAnswer& convention,
+                               ThreadTeam& team) {
   const RowEngine& engine = *context.engine;
   ConventionFreedom result;
   std::int64_t cells = 0;
   for (std::size_t k = 0; k < convention.agents.size(); ++k) {
-    const PartialController& part = convention.controller->parts[k];
-    const CellSet& invariant = *part.controller.invariant;
+    const PartialController& piece = convention.controller->pieces[k];
+    const CellSet& invariant = *piece.controller.invariant;
     std::optional<Tiles> tiles;
     // Not with a goal: then posts must stay in more cells than those of the part, or come nearer.
-    if (convention.agents.size() == 1) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
+    if (convention.agents.size() == 1) tiles = Tiles::find(*piece.controller.engine, *piece.hull, invariant);
     ConventionFreedom freedom =
-        find_convention(part.controller, convention.agents[k], team, tiles ? &*tiles : nullptr);
+        find_convention(piece.controller, convention.agents[k], team, tiles ? &*tiles : nullptr);
     const std::int64_t count = context.count(invariant);
     if (k == 0) {
       result = std::move(freedom);
     } else {
-      add(freedom, cells, count, own_rows(engine.share(), engine.rows()), engine.row_length(), result);
+      add(freedom, cells, count, local_rows(engine.share(), engine.rows()), engine.row_length(), result);
     }
     cells += count;
   }
@@ -80,10 +80,10 @@ ConventionFreedom find_parts(const AnalysisContext& context, const ConventionAns
 
 void find_a_convention(Answers& answers, const StageWork& work) {
   const AnalysisContext& context = answers.context;
-  ConventionAnswer& result = answers.add(ConventionAnswer{controller_parts(answers, false), {}, {}});
+  ConventionAnswer& result = answers.add(ConventionAnswer{piecewise_controller(answers, false), {}, {}});
   const std::vector<InputClass> agents = agent_classes(context.spec, context.abstraction->inputs);
-  for (const PartialController& part : result.controller->parts)
-    result.agents.emplace_back(*part.controller.engine, agents, work.team);
+  for (const PartialController& piece : result.controller->pieces)
+    result.agents.emplace_back(*piece.controller.engine, agents, work.team);
   const auto exchange = [&answers](Archive& archive) {
     serialise(archive, *answers.context.engine, answers.get<ConventionAnswer>().freedom);
   };
@@ -92,7 +92,7 @@ void find_a_convention(Answers& answers, const StageWork& work) {
     exchange(archive);
   };
   const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
-  if (!is_kept) result.freedom = find_parts(context, result, work.team);
+  if (!is_kept) result.freedom = find_freedom(context, result, work.team);
   if (work.store != nullptr) work.store->finish(exchange);
 }
 
@@ -121,12 +121,12 @@ MemoryNeed convention_memory(const EngineSizes& sizes, int threads) {
   const auto agents = static_cast<double>(spec.agents.size());
   const double freedom = agents * sizes.lanes() * sizeof(float);
   // With a goal there are two parts, one after the other.
-  const double parts = spec.goal ? 2 : 1;
+  const double pieces = spec.goal ? 2 : 1;
   constexpr double kLikeRows = 4;  // words of a row, for the numbers of equal rows
-  return {.kept = parts * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
-                  (parts - 1) * sizes.set(),
+  return {.kept = pieces * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
+                  (pieces - 1) * sizes.set(),
           .work = sizes.readers(threads) + (agents + kLikeRows) * sizes.rows() * sizeof(double) +
-                  (parts - 1) * freedom,
+                  (pieces - 1) * freedom,
           .written = sizes.readers(threads),
           .array = freedom};
 }

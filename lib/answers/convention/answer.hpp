@@ -13,7 +13,7 @@ namespace coordreq {
 
 /// A convention and its cost. With a goal it lies in P on the way to the goal, so that agents arrive in time.
 struct ConventionAnswer {
-  std::unique_ptr<const ControllerParts> controller;
+  std::unique_ptr<const PiecewiseController> controller;
   std::deque<ActionGrouping> agents;  ///< [part] with the actions of each agent as a class of their own
   ConventionFreedom freedom;
 };

@@ -25,9 +25,9 @@ class ConventionChecker : public CellChecker {
   ConventionChecker(const CheckContext& context, ConventionTallies& tallies);
 
   void check(CheckedCell& cell) override {
-    const bool is_on_the_way = progress_ && progress_->is_on_the_way(cell.at());
-    admitted_ = is_on_the_way ? progress_->of(cell) : cell.admitted();
-    if (cell.is_over()) std::ranges::fill(admitted_, std::uint8_t{0});  // nobody chooses anything
+    const bool is_before_goal = progress_ && progress_->is_before_goal(cell.at());
+    admitted_ = is_before_goal ? progress_->of(cell) : cell.admitted();
+    if (cell.is_terminal()) std::ranges::fill(admitted_, std::uint8_t{0});  // no agent chooses anything
     find(admitted_);
     check_freedom(cell);
     if (actions_.front() != nullptr) check_actions(cell);
@@ -100,8 +100,8 @@ void ConventionChecker::find(const std::vector<std::uint8_t>& admitted) {
 }
 
 bool ConventionChecker::is_product_in(const Sets& sets, const std::vector<std::uint8_t>& admitted) const {
-  for (const std::vector<std::uint8_t>& own : sets) {
-    if (std::find(own.begin(), own.end(), 1) == own.end()) return false;
+  for (const std::vector<std::uint8_t>& set : sets) {
+    if (std::find(set.begin(), set.end(), 1) == set.end()) return false;
   }
   for (std::size_t u = 0; u < admitted.size(); ++u) {
     bool chosen = admitted[u] == 0;
@@ -116,10 +116,10 @@ ConventionChecker::Sets ConventionChecker::claimed_sets(std::size_t cell) const 
   Sets sets;
   for (std::size_t i = 0; i < agents_.size(); ++i) {
     const auto bytes = static_cast<std::size_t>(agents_[i].bytes());
-    const std::uint8_t* const own = actions_[i]->data() + cell * bytes;
+    const std::uint8_t* const row = actions_[i]->data() + cell * bytes;
     // Bits beyond the last action must be 0: one that is set makes the sets differ.
     std::vector<std::uint8_t>& set = sets.emplace_back(bytes * 8);
-    for (std::size_t a = 0; a < set.size(); ++a) set[a] = own[a / 8] >> (a % 8) & 1U;
+    for (std::size_t a = 0; a < set.size(); ++a) set[a] = row[a / 8] >> (a % 8) & 1U;
     const auto count = static_cast<std::size_t>(agents_[i].actions());
     if (std::find(set.begin() + static_cast<std::ptrdiff_t>(count), set.end(), 1) == set.end())
       set.resize(count);
@@ -136,7 +136,7 @@ void ConventionChecker::check_actions(const CheckedCell& cell) {
     return;
   }
   tallies_.actions.add_wrong(cell.number(),
-                             [&] { return cell.place() + ": not the actions of the convention"; });
+                             [&] { return cell.location() + ": not the actions of the convention"; });
 }
 
 void ConventionChecker::check_freedom(const CheckedCell& cell) {
@@ -158,7 +158,7 @@ void ConventionChecker::check_freedom(const CheckedCell& cell) {
       tallies_.freedom.add_unproven();
     } else {
       tallies_.freedom.add_wrong(cell.number(), [&] {
-        return fmt::format("{}: {} keeps {}, expected {} of {} actions", cell.place(),
+        return fmt::format("{}: {} keeps {}, expected {} of {} actions", cell.location(),
                            context_.spec->agents[i].name, claimed, kept, all);
       });
     }

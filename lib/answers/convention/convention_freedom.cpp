@@ -52,9 +52,9 @@ class Measure {
     for_each_bit(invariant, [&](std::int64_t x) {
       const std::int64_t kept = kept_[static_cast<std::size_t>(x)];
       const std::int64_t all = all_[static_cast<std::size_t>(x)];
-      const double part = static_cast<double>(kept) / static_cast<double>(all);
-      freedom[x] = static_cast<float>(part);
-      sum += part;
+      const double ratio = static_cast<double>(kept) / static_cast<double>(all);
+      freedom[x] = static_cast<float>(ratio);
+      sum += ratio;
       if (kept == all) count.full += rows;
       count.histogram[static_cast<std::size_t>((10 * kept + all - 1) / all - 1)] += rows;
     });
@@ -114,16 +114,16 @@ struct LikeRows {
   std::vector<std::int64_t> count;  ///< [own row] number of rows like it; of first rows alone
 };
 
-LikeRows find_like_rows(const CellSet& invariant, RowShare::Range own, const RowShare* share,
+LikeRows find_like_rows(const CellSet& invariant, RowShare::Range local, const RowShare* share,
                         const Tiles* tiles) {
-  const auto rows = static_cast<std::size_t>(own.end - own.begin);
+  const auto rows = static_cast<std::size_t>(local.end - local.begin);
   LikeRows like{std::vector<std::int64_t>(rows, -1), std::vector<std::int64_t>(rows, 0)};
   Tiles::Numbers classes;
   if (tiles != nullptr) classes = tiles->refined(tiles->tables(), number_rows(invariant, share));
   const auto has = [&](std::int64_t row) { return any_set(invariant.row(row)); };
-  for_each_with_first(tiles, classes, own, has, [&](std::int64_t row, std::int64_t first) {
-    like.first[static_cast<std::size_t>(row - own.begin)] = first;
-    ++like.count[static_cast<std::size_t>(first - own.begin)];
+  for_each_with_first(tiles, classes, local, has, [&](std::int64_t row, std::int64_t first) {
+    like.first[static_cast<std::size_t>(row - local.begin)] = first;
+    ++like.count[static_cast<std::size_t>(first - local.begin)];
   });
   return like;
 }
@@ -151,31 +151,32 @@ ConventionFreedom find_convention(const Controller& controller, const ActionGrou
                                   ThreadTeam& team, const Tiles* tiles) {
   REQUIRES(tiles == nullptr || controller.approaches || &controller.target() == controller.invariant);
   const RowEngine& engine = *controller.engine;
-  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  const RowShare::Range local = local_rows(engine.share(), engine.rows());
   ConventionFreedom result;
   result.agents.resize(agents.size());
   for (ConventionFreedom::Agent& agent : result.agents) {
     agent.freedom = ZeroedArray<float>(static_cast<std::size_t>(engine.grid().cells()));
-    std::fill(agent.freedom.begin() + own.begin * engine.row_length(),
-              agent.freedom.begin() + own.end * engine.row_length(), std::numeric_limits<float>::quiet_NaN());
+    std::fill(agent.freedom.begin() + local.begin * engine.row_length(),
+              agent.freedom.begin() + local.end * engine.row_length(),
+              std::numeric_limits<float>::quiet_NaN());
   }
   std::vector<std::vector<Count>> counts(static_cast<std::size_t>(team.size()),
                                          std::vector<Count>(agents.size()));
   std::vector<std::vector<double>> sums(
-      agents.size(), std::vector<double>(static_cast<std::size_t>(own.end - own.begin), 0));
-  const LikeRows like = find_like_rows(*controller.invariant, own, engine.share(), tiles);
+      agents.size(), std::vector<double>(static_cast<std::size_t>(local.end - local.begin), 0));
+  const LikeRows like = find_like_rows(*controller.invariant, local, engine.share(), tiles);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<ConventionRows<Level>> finders;
     for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, agents, levels);
-    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       ConventionRows<Level>& finder = finders[static_cast<std::size_t>(worker)];
       ConventionRow row;
       Measure measure(engine.row_length());
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         // Minima are shared within a unit.
         if (place.row == range.begin || place.row % engine.unit_rows() == 0) finder.enter();
-        const auto k = static_cast<std::size_t>(place.row - own.begin);
+        const auto k = static_cast<std::size_t>(place.row - local.begin);
         if (like.first[k] != place.row) continue;
         const ConstRow invariant = controller.invariant->row(place.row);
         finder.find(place, row);
@@ -187,8 +188,8 @@ ConventionFreedom find_convention(const Controller& controller, const ActionGrou
       }
     });
   });
-  copy_to_like_rows(like, own.begin, engine.row_length(), team, sums, result);
-  add_up(counts, sums, engine.share(), controller.invariant->count(own.begin, own.end), result);
+  copy_to_like_rows(like, local.begin, engine.row_length(), team, sums, result);
+  add_up(counts, sums, engine.share(), controller.invariant->count(local.begin, local.end), result);
   return result;
 }
 
@@ -223,7 +224,7 @@ void fill_convention_bits(const Controller& controller, const ActionGrouping& ag
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     ConventionRows<Level> finder(controller, agents, levels);
     std::vector<std::uint8_t> cells(row_bytes);
-    // A stretch may begin and end inside a row.
+    // A segment may begin and end inside a row.
     while (count > 0) {
       const std::uint64_t offset = begin % row_bytes;
       const std::uint64_t take = std::min(count, row_bytes - offset);

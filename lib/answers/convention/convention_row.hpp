@@ -34,7 +34,7 @@ class ConventionRows {
         agents_(agents),
         words_(controller.engine->row_words()),
         posts_(*controller.engine, levels) {
-    for (std::size_t i = 0; i < agents.size(); ++i) parts_.push_back(agents[i].parts());
+    for (std::size_t i = 0; i < agents.size(); ++i) offsets_.push_back(agents[i].offsets());
   }
 
   /// Goes to another unit.
@@ -70,7 +70,7 @@ class ConventionRows {
       for (std::size_t i = 0; i < agents_.size(); ++i) {
         const std::uint32_t g = tuple_.chosen(i);
         choices_.push_back(g);
-        number += parts_[i][row.groups.classes[i]->representative[g]];
+        number += offsets_[i][row.groups.classes[i]->representative[g]];
         for (std::size_t w = 0; w < words_; ++w) row.projection[i][g * words_ + w] |= members[w];
       }
       numbers_.push_back(number);
@@ -103,8 +103,8 @@ class ConventionRows {
 
   /// Adds to the set of agent i all groups that fit the present sets of the others.
   void add_actions(std::size_t i, ConstRow invariant, ConventionRow& row) {
-    std::vector<Word>& own = row.kept[i];
-    refused_.assign(own.size(), 0);
+    std::vector<Word>& kept = row.kept[i];
+    refused_.assign(kept.size(), 0);
     for (std::size_t t = 0; t < numbers_.size(); ++t) {
       for (std::size_t w = 0; w < words_; ++w) {
         Word bad = invariant[w] & ~admissible_[t * words_ + w];
@@ -114,7 +114,7 @@ class ConventionRows {
         refused_[chosen(t, i) * words_ + w] |= bad;
       }
     }
-    for (std::size_t k = 0; k < own.size(); ++k) own[k] = invariant[k % words_] & ~refused_[k];
+    for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = invariant[k % words_] & ~refused_[k];
   }
 
   [[nodiscard]] std::size_t chosen(std::size_t t, std::size_t i) const {
@@ -126,7 +126,7 @@ class ConventionRows {
   const ActionGrouping& agents_;
   std::size_t words_;
   PostReader<Level> posts_;
-  std::vector<std::vector<std::int64_t>> parts_;  ///< [agent][action]: its part of a joint input's number
+  std::vector<std::vector<std::int64_t>> offsets_;  ///< [agent][action]: its part of a joint input's number
   TupleWalk::Candidates candidates_;
   TupleWalk tuple_;
   std::vector<Word> admissible_;        ///< [choice of groups * words + word]

@@ -9,12 +9,12 @@ namespace coordreq {
 namespace {
 
 /// Fills bits part by part; each cell is in one part.
-void fill_bits_of_parts(const ConventionAnswer& convention, std::size_t agent, std::uint64_t begin,
-                        std::uint64_t count, std::uint8_t* out) {
+void fill_bits_of_pieces(const ConventionAnswer& convention, std::size_t agent, std::uint64_t begin,
+                         std::uint64_t count, std::uint8_t* out) {
   std::vector<std::uint8_t> bits(count);
   for (std::size_t k = 0; k < convention.agents.size(); ++k) {
-    const PartialController& part = convention.controller->parts[k];
-    fill_convention_bits(part.controller, convention.agents[k], agent, begin, count, bits.data());
+    const PartialController& piece = convention.controller->pieces[k];
+    fill_convention_bits(piece.controller, convention.agents[k], agent, begin, count, bits.data());
     for (std::uint64_t i = 0; i < count; ++i)
       out[i] = static_cast<std::uint8_t>(k == 0 ? bits[i] : out[i] | bits[i]);
   }
@@ -59,7 +59,7 @@ void fill_convention_fields(const Answers& answers, ThreadTeam& /*team*/, FieldV
   for (std::size_t i = 0; spec.output.actions && i < spec.agents.size(); ++i) {
     values.entries[paths::convention(spec.agents[i])].array = {
         ElementType::uint8, [convention, i](std::uint64_t begin, std::uint64_t count, void* out) {
-          fill_bits_of_parts(*convention, i, begin, count, static_cast<std::uint8_t*>(out));
+          fill_bits_of_pieces(*convention, i, begin, count, static_cast<std::uint8_t*>(out));
         }};
   }
 }

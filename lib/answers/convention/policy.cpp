@@ -19,12 +19,12 @@ class ConventionPolicy : public CellPolicy {
  public:
   explicit ConventionPolicy(const PolicyContext& context)
       : joint_inputs_(context.posts->inputs().count()),
-        way_(context.spec->goal ? make_goal_policy(context) : nullptr) {}
+        goal_policy_(context.spec->goal ? make_goal_policy(context) : nullptr) {}
 
   bool holds(std::int64_t /*cell*/) override { return true; }
 
   const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
-    return way_ && way_->holds(cell) ? way_->together(cell, admissible) : admissible;
+    return goal_policy_ && goal_policy_->holds(cell) ? goal_policy_->together(cell, admissible) : admissible;
   }
 
   std::vector<Numbers> alone(std::int64_t /*cell*/, std::int32_t /*countdown*/, const Numbers& together,
@@ -32,10 +32,10 @@ class ConventionPolicy : public CellPolicy {
     std::vector<bool> inputs(at(joint_inputs_), false);
     for (const std::int64_t u : together) inputs[at(u)] = true;
     std::vector<Numbers> actions;
-    for (const std::vector<bool>& own : convention_at(inputs, classes)) {
+    for (const std::vector<bool>& kept_actions : convention_at(inputs, classes)) {
       Numbers& numbers = actions.emplace_back();
-      for (std::size_t a = 0; a < own.size(); ++a) {
-        if (own[a]) numbers.push_back(static_cast<std::int64_t>(a));
+      for (std::size_t a = 0; a < kept_actions.size(); ++a) {
+        if (kept_actions[a]) numbers.push_back(static_cast<std::int64_t>(a));
       }
     }
     return actions;
@@ -43,14 +43,14 @@ class ConventionPolicy : public CellPolicy {
 
  private:
   std::int64_t joint_inputs_;
-  std::unique_ptr<CellPolicy> way_;
+  std::unique_ptr<CellPolicy> goal_policy_;
 };
 
 /// The actions that the convention leaves to each agent, which needs no coordination at all: on the way to a
 /// goal in P(x), else in C(x).
 AnswerPolicy convention_policy() {
   return {.name = "convention",
-          .words = "actions",
+          .label = "actions",
           .is_by_agent = true,
           .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
             return std::make_unique<ConventionPolicy>(context);
@@ -63,22 +63,22 @@ AnswerPolicy convention_policy() {
 
 /// Explains how many of its actions each agent would keep, and that it could be silent indefinitely.
 Explained explain_convention(const ExplainContext& context) {
-  Explained result{.key = "convention", .found = std::make_shared<Json>(Json::array())};
+  Explained result{.key = "convention", .json = std::make_shared<Json>(Json::array())};
   if (context.delay < 0) return result;
   const std::vector<std::vector<bool>> actions = context.actions(convention_policy());
-  std::vector<std::string> parts;
+  std::vector<std::string> items;
   for (std::size_t i = 0; i < actions.size(); ++i) {
     const std::string& agent = context.spec->agents[i].name;
     const auto kept = std::count(actions[i].begin(), actions[i].end(), true);
-    result.found->push_back({{"agent", agent}, {"kept", kept}, {"total", actions[i].size()}});
-    parts.push_back(fmt::format("{} {} of {}", agent, grouped(std::int64_t{kept}),
+    result.json->push_back({{"agent", agent}, {"kept", kept}, {"total", actions[i].size()}});
+    items.push_back(fmt::format("{} {} of {}", agent, grouped(std::int64_t{kept}),
                                 grouped(std::uint64_t{actions[i].size()})));
   }
   if (!context.is_bounded) return result;
   result.sentences = {
       fmt::format("With a convention (\"convention\": true) the agents would keep these actions here: {}; "
                   "agents that keep to it never need to coordinate.",
-                  list_text(parts))};
+                  list_text(items))};
   return result;
 }
 

@@ -54,9 +54,9 @@ std::optional<std::int64_t> best_level(const DelayLayers& layers) {
 template <class Level>
 const Level* find_level(const Level* begin, const Level* end, std::int64_t level) {
   if constexpr (sizeof(Level) == 1) {
-    const void* const found =
+    const void* const match =
         std::memchr(begin, static_cast<int>(level), static_cast<std::size_t>(end - begin));
-    return found == nullptr ? end : static_cast<const Level*>(found);
+    return match == nullptr ? end : static_cast<const Level*>(match);
   } else {
     return std::find(begin, end, static_cast<Level>(level));
   }
@@ -96,7 +96,7 @@ std::int64_t first_cell(const AnalysisContext& context, const DelayLayers& layer
   std::vector<std::int64_t> first(static_cast<std::size_t>(team.size()),
                                   std::numeric_limits<std::int64_t>::max());
   layers.layers_of.visit([&](const auto& levels) {
-    for_each_own_row(team, share, levels.rows(), kGrain, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, share, levels.rows(), kGrain, [&](ThreadTeam::Range range, int worker) {
       std::int64_t& least = first[static_cast<std::size_t>(worker)];
       for (std::int64_t r = range.begin; r < range.end; ++r) {
         const auto* const row = levels.row(r);
@@ -138,8 +138,8 @@ std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const 
   const UniformGrid& grid = context.abstraction->grid;
   Touched touched{std::vector<std::int64_t>(2 * grid.size(), 0)};
   layers.layers_of.visit([&](const auto& levels) {
-    const std::int64_t begin = context.share ? context.share->own().begin : 0;
-    const std::int64_t end = context.share ? context.share->own().end : levels.rows();
+    const std::int64_t begin = context.share ? context.share->local().begin : 0;
+    const std::int64_t end = context.share ? context.share->local().end : levels.rows();
     // A single process may stop at the first best cell that is inside.
     for (std::int64_t r = begin; r < end && (context.share || touched.inside == 0); ++r) {
       const auto* const row = levels.row(r);
@@ -156,11 +156,11 @@ std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const 
     touched.inside = touched.sides.back();
     touched.sides.pop_back();
   }
-  std::vector<GridSide> found;
+  std::vector<GridSide> result;
   for (std::size_t s = 0; touched.inside == 0 && s < touched.sides.size(); ++s) {
-    if (touched.sides[s] > 0) found.push_back({s / 2, s % 2 == 1});
+    if (touched.sides[s] > 0) result.push_back({s / 2, s % 2 == 1});
   }
-  return found;
+  return result;
 }
 
 }  // namespace coordreq

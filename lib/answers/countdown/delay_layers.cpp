@@ -28,11 +28,11 @@ std::vector<std::int64_t> layer_sizes(const LevelMap::Histogram& cells) {
 LevelMap find_layer_levels(const RowEngine& engine, const RowHull& hull, const CellSet& base,
                            const Projections& projections, const std::vector<const LevelMap*>& coarser,
                            std::optional<std::int64_t> max_delay, const WaveWatch& watch, ThreadTeam& team,
-                           WaveCounts& counts, const CellSet* over) {
+                           WaveCounts& counts, const CellSet* terminal) {
   const int workers = team.size();
   const LevelProblem problem{
       .start = &base,
-      .spared = over,
+      .spared = terminal,
       .bounds = coarser,
       .equal = projections.equal_work(),
       .limit = max_delay.value_or(-1),

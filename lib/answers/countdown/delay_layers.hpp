@@ -52,15 +52,16 @@ struct DelayLayers {
 ///
 /// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is a subset of this
 /// one's, so that the worst choice is no worse. The wave begins at the least of their levels.
-/// @param base Z_0: K, or another set that the choices are asked to stay in
-/// @param projections of C where the task goes on
-/// @param over G of a goal that ends it, which is in every layer; null: there is none
+/// @param base Z_0: K, or another set that the choices have to stay in
+/// @param projections of C in nonterminal cells
+/// @param terminal G of a goal that ends it, which is in every layer; null: there is none
 /// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
 [[nodiscard]] LevelMap find_layer_levels(const RowEngine& engine, const RowHull& hull, const CellSet& base,
                                          const Projections& projections,
                                          const std::vector<const LevelMap*>& coarser,
                                          std::optional<std::int64_t> max_delay, const WaveWatch& watch,
-                                         ThreadTeam& team, WaveCounts& counts, const CellSet* over = nullptr);
+                                         ThreadTeam& team, WaveCounts& counts,
+                                         const CellSet* terminal = nullptr);
 
 /// The layers of the partition in which all agents are together, without a wave: IND_C = C, and C keeps every
 /// cell of K in K, so Z_k = K for every k.

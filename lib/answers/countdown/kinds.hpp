@@ -10,7 +10,7 @@ struct CountdownKind {
   const char* name;     ///< its member of a partition in JSON; empty: that of delays, which are the partition
   char letter;          ///< of its layers: Z_0, Z_1, ...
   const char* layered;  ///< path of the steps that say in which layers a cell is
-  const char* words;    ///< for its layers, in findings
+  const char* label;    ///< for its layers, in findings
 
   /// What the paths of `layer`, `layer_size` and `fixed_point_index` begin with.
   [[nodiscard]] std::string prefix() const { return *name == '\0' ? "/" : "/" + std::string(name) + "_"; }

@@ -47,33 +47,33 @@ class LeavingRows {
   LeavingRows(const Answers& answers, const Projections& projections, const SafeSides& sides,
               const LevelRows<Level>& levels)
       : context_(answers.context),
-        controller_(answers.get<GoingOn>().controller),
+        controller_(answers.get<NonterminalController>().controller),
         engine_(*context_.engine),
         projections_(projections),
         sides_(sides),
         posts_(engine_, levels),
-        asked_(engine_.row_words()),
+        pending_(engine_.row_words()),
         near_(engine_.row_words()),
         leaving_(engine_.row_words()) {}
 
   /// Takes the cells out of the row from which some joint input of C(x) leaves.
-  /// @param outward takes the cells, of those asked about, with the outward joint input in C(x)
+  /// @param outward takes the cells, of those in question, with the outward joint input in C(x)
   void take_out(const RowPlace& place, MutableRow row, MutableRow outward) {
-    std::copy(row.begin(), row.end(), asked_.begin());
-    if (context_.over) remove(context_.over->row(place.row), asked_);
+    std::copy(row.begin(), row.end(), pending_.begin());
+    if (context_.terminal) remove(context_.terminal->row(place.row), pending_);
     const bool full = is_full(place.row);
     if (full) {
-      std::copy(asked_.begin(), asked_.end(), outward.begin());
+      std::copy(pending_.begin(), pending_.end(), outward.begin());
     } else {
       enter(place);
-      keep_members(place, sides_.outward(), asked_, outward);
+      keep_members(place, sides_.outward(), pending_, outward);
     }
-    sides_.find_near(place, asked_, near_);
+    sides_.find_near(place, pending_, near_);
     if (!any_set(near_)) return;
     ++rows_;
     if (!full) keep_admissible(place, outward);
     remove(near_, row);
-    for (const Word word : near_) taken_ += word == 0 ? 0 : std::popcount(word);
+    for (const Word word : near_) removed_ += word == 0 ? 0 : std::popcount(word);
   }
 
   /// Whether the outward joint input is in C(x) and leads ahead, for all of these unbounded cells of the row,
@@ -91,7 +91,7 @@ class LeavingRows {
   [[nodiscard]] std::int64_t rows() const { return rows_; }
   [[nodiscard]] std::int64_t reads() const { return reads_; }
   /// Cells that were taken out.
-  [[nodiscard]] std::int64_t taken() const { return taken_; }
+  [[nodiscard]] std::int64_t removed() const { return removed_; }
 
  private:
   /// Every joint input is in C(x), at all x of K in the row.
@@ -108,24 +108,24 @@ class LeavingRows {
 
   /// Keeps of near_ the cells from which a joint input of C(x) leaves.
   void keep_admissible(const RowPlace& place, ConstRow outward) {
-    std::copy(near_.begin(), near_.end(), asked_.begin());
-    sides_.find_leaving_outward(place, asked_, leaving_);
-    for (std::size_t w = 0; w < asked_.size(); ++w) asked_[w] &= ~(leaving_[w] & outward[w]);
+    std::copy(near_.begin(), near_.end(), pending_.begin());
+    sides_.find_leaving_outward(place, pending_, leaving_);
+    for (std::size_t w = 0; w < pending_.size(); ++w) pending_[w] &= ~(leaving_[w] & outward[w]);
     members_of_.clear();
-    for (std::size_t side = 0; side < sides_.size() && any_set(asked_); ++side) {
-      for (std::size_t part = sides_.parts(side); part-- > 0 && any_set(asked_);) {
-        sides_.find_leaving(side, part, place, asked_, leaving_);
+    for (std::size_t side = 0; side < sides_.size() && any_set(pending_); ++side) {
+      for (std::size_t choice = sides_.input_choices(side); choice-- > 0 && any_set(pending_);) {
+        sides_.find_leaving(side, choice, place, pending_, leaving_);
         if (!any_set(leaving_)) continue;
-        sides_.for_each_input(side, part, [&](std::int64_t u) {
+        sides_.for_each_input(side, choice, [&](std::int64_t u) {
           if (u == sides_.outward()) return true;  // from none of these
           keep_members(place, u, leaving_, members_);
-          remove(members_, asked_);
+          remove(members_, pending_);
           remove(members_, leaving_);
           return any_set(leaving_);
         });
       }
     }
-    remove(asked_, near_);
+    remove(pending_, near_);
   }
 
   /// result = these cells of the row, where u is in C(x).
@@ -166,7 +166,7 @@ class LeavingRows {
   const Projections& projections_;
   const SafeSides& sides_;
   PostReader<Level> posts_;
-  std::vector<Word> asked_;
+  std::vector<Word> pending_;
   std::vector<Word> near_;
   std::vector<Word> leaving_;
   std::vector<Word> members_ = std::vector<Word>(near_.size());
@@ -176,18 +176,19 @@ class LeavingRows {
   std::int64_t unit_ = -1;  ///< that the reader was entered for
   std::int64_t rows_ = 0;
   std::int64_t reads_ = 0;
-  std::int64_t taken_ = 0;
+  std::int64_t removed_ = 0;
 };
 
 /// Calls `visit(workers)` with a LeavingRows for each thread.
 template <class Visit>
 void with_workers(const Answers& answers, const Projections& projections, const SafeSides& sides,
                   ThreadTeam& team, const Visit& visit) {
-  answers.get<GoingOn>().controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
-    std::deque<LeavingRows<Level>> workers;
-    for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
-    visit(workers);
-  });
+  answers.get<NonterminalController>().controller.levels->visit(
+      [&]<class Level>(const LevelRows<Level>& levels) {
+        std::deque<LeavingRows<Level>> workers;
+        for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
+        visit(workers);
+      });
 }
 
 /// The unbounded cells of a row. @pre rows are along one dimension
@@ -208,15 +209,15 @@ bool all_lead_ahead(const Answers& answers, const Projections& projections, cons
                     const SafeSides& sides, ThreadTeam& team, LeavingCounts& counts) {
   const AnalysisContext& context = answers.context;
   const RowEngine& engine = *context.engine;
-  const bool may_be_empty = answers.get<GoingOn>().controller.synthesis != Synthesis::maximal &&
+  const bool may_be_empty = answers.get<NonterminalController>().controller.synthesis != Synthesis::maximal &&
                             context.pairs.admissible() != nullptr;
-  if (context.over || may_be_empty || engine.along() != 1 || !sides.knows_ahead()) return false;
+  if (context.terminal || may_be_empty || engine.along() != 1 || !sides.knows_ahead()) return false;
   std::atomic<bool> all = true;
-  LeavingCounts found;
+  LeavingCounts local;
   with_workers(answers, projections, sides, team, [&](auto& workers) {
     std::vector<Word> every(engine.row_words());
     set_bits(every, 0, engine.row_length());
-    for_each_own_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
       std::vector<Word> ahead(every.size()), open(every.size());
       for (RowPlace place(engine.grid(), range.begin); all && place.row < range.end;
            place.advance(engine.grid())) {
@@ -228,14 +229,14 @@ bool all_lead_ahead(const Answers& answers, const Projections& projections, cons
       }
     });
     for (const auto& worker : workers) {
-      found.rows_near += worker.rows();
-      found.rows_read += worker.reads();
+      local.rows_near += worker.rows();
+      local.rows_read += worker.reads();
     }
   });
   if (sum_of_all(engine.share(), all ? 0 : 1) > 0) return false;
   counts.cells = layers.sizes.back();
-  counts.rows_near = sum_of_all(engine.share(), found.rows_near);
-  counts.rows_read = sum_of_all(engine.share(), found.rows_read);
+  counts.rows_near = sum_of_all(engine.share(), local.rows_near);
+  counts.rows_read = sum_of_all(engine.share(), local.rows_read);
   return true;
 }
 
@@ -245,7 +246,7 @@ void take_out_leaving(const Answers& answers, const Projections& projections, co
                       ThreadTeam& team, CellSet& cells, CellSet& outward, LeavingCounts& counts) {
   const RowEngine& engine = *answers.context.engine;
   with_workers(answers, projections, sides, team, [&](auto& workers) {
-    for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         if (any_set(cells.row(place.row)))
           workers[at(worker)].take_out(place, cells.row(place.row), outward.row(place.row));
@@ -254,7 +255,7 @@ void take_out_leaving(const Answers& answers, const Projections& projections, co
     for (const auto& worker : workers) {
       counts.rows_near += worker.rows();
       counts.rows_read += worker.reads();
-      counts.cells += worker.taken();
+      counts.cells += worker.removed();
     }
   });
 }
@@ -293,19 +294,19 @@ LeavingCounts count_leaving_cells(const Answers& answers, const Projections& pro
     CellSet outward(engine.rows(), engine.row_length());
     take_out_leaving(answers, projections, sides, team, cells, outward, counts);
     // Where no joint input leaves, or nothing is left, there is nothing to spread.
-    const std::int64_t found = sum_of_all(engine.share(), counts.cells);
-    if (found > 0 && found < unbounded - context.over_cells)
+    const std::int64_t removed = sum_of_all(engine.share(), counts.cells);
+    if (removed > 0 && removed < unbounded - context.terminal_cells)
       counts.cells += take_out_runs(context, sides, all, outward, team, cells);
   }
   for (std::int64_t* number : {&counts.cells, &counts.rows_near, &counts.rows_read})
     *number = sum_of_all(engine.share(), *number);
-  if (counts.cells == 0 || counts.cells == unbounded - context.over_cells) return counts;
+  if (counts.cells == 0 || counts.cells == unbounded - context.terminal_cells) return counts;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
     return std::make_unique<IndependentActions<Level>>(projections, invariant, team.size(),
-                                                       IndependentActions<Level>::Tells::whether);
+                                                       IndependentActions<Level>::LostLevels::flag);
   };
-  const LevelProblem problem{.spared = context.over_or_null(),
+  const LevelProblem problem{.spared = context.terminal_or_null(),
                              .equal = projections.equal_work(),
                              .limit = 1,
                              .make8 = [&] { return make(std::uint8_t{}); },

@@ -19,7 +19,7 @@ namespace coordreq {
 /// In Z_F IND_C(x) = C(x): each of its joint inputs leads into Z_F, a part of K, so that it is in C(x).
 /// Mostly the tables of such sides alone show that all cells leave, since each goes on outward, whatever is
 /// chosen. Else: where every joint input is in C(x) all cells near such a side leave; in other rows the joint
-/// inputs that leave are read, a row at a time. Then a wave that asks no more than whether a cell leaves
+/// inputs that leave are read, a row at a time. Then a wave that finds no more than whether a cell leaves
 /// finds Y.
 /// @param projections of the partition, which has two classes or more
 /// @param layers of the partition, with F; @pre unchecked: no controller file, which makes IND_C(x) larger

@@ -10,7 +10,7 @@ namespace coordreq {
 namespace {
 
 /// A round that takes out less than this part of all that was taken out is the last.
-constexpr std::int64_t kLeastPart = 8;
+constexpr std::int64_t kLeastFraction = 8;
 
 /// Where the cells of a row go by the outward joint input: one cell of the post of each.
 class OutwardCells {
@@ -77,16 +77,16 @@ std::int64_t take_out_runs(const AnalysisContext& context, const SafeSides& side
   const RowEngine& engine = *context.engine;
   if (!engine.posts().is_cut() || engine.along() != 1) return 0;
   const OutwardCells cells(engine, sides, sides.outward());
-  const RowShare::Range own = own_rows(engine.share(), engine.rows());
-  std::vector<OutwardCells::Target> targets(at(own.end - own.begin));
+  const RowShare::Range local = local_rows(engine.share(), engine.rows());
+  std::vector<OutwardCells::Target> targets(at(local.end - local.begin));
   std::int64_t total = 0;
   for (bool is_first = true, goes_on = true; goes_on; is_first = false) {
     const CellSet before = left;
-    std::vector<std::int64_t> taken(at(std::int64_t{team.size()}), 0);
-    for_each_own_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
+    std::vector<std::int64_t> removed(at(std::int64_t{team.size()}), 0);
+    for_each_local_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
       RowPlace place(engine.grid(), range.begin);
       for (std::int64_t r = range.begin; r < range.end; ++r) {
-        OutwardCells::Target& target = targets[at(r - own.begin)];
+        OutwardCells::Target& target = targets[at(r - local.begin)];
         const MutableRow row = left.row(r);
         const ConstRow may = outward.row(r);
         if (is_first) {
@@ -94,20 +94,20 @@ std::int64_t take_out_runs(const AnalysisContext& context, const SafeSides& side
           place.advance(engine.grid());
         }
         if (target.row == OutwardCells::kNone) continue;
-        const ConstRow all_there = all.row(target.row), left_there = before.row(target.row);
+        const ConstRow all_row = all.row(target.row), left_row = before.row(target.row);
         for (std::size_t w = 0; w < row.size(); ++w) {
           if ((row[w] & may[w]) == 0) continue;
           const Word out = shifted_word(static_cast<std::int64_t>(w), target.offset, std::ssize(row),
-                                        [&](std::size_t k) { return all_there[k] & ~left_there[k]; });
-          const Word found = out & row[w] & may[w];
-          row[w] &= ~found;
-          taken[at(worker)] += std::popcount(found);
+                                        [&](std::size_t k) { return all_row[k] & ~left_row[k]; });
+          const Word leaving = out & row[w] & may[w];
+          row[w] &= ~leaving;
+          removed[at(worker)] += std::popcount(leaving);
         }
       }
     });
-    const std::int64_t round = std::accumulate(taken.begin(), taken.end(), std::int64_t{0});
+    const std::int64_t round = std::accumulate(removed.begin(), removed.end(), std::int64_t{0});
     total += round;
-    goes_on = round > 0 && round >= total / kLeastPart;
+    goes_on = round > 0 && round >= total / kLeastFraction;
   }
   return total;
 }

@@ -126,17 +126,17 @@ void SafeSides::add_row(const Side& side, const std::vector<Word>& kept, const R
   for (std::size_t w = 0; w < result.size(); ++w) result[w] |= row[side.is_along ? w : 0];
 }
 
-void SafeSides::find_leaving(std::size_t side, std::size_t part, const RowPlace& place, ConstRow cells,
-                             MutableRow result) const {
+void SafeSides::find_leaving(std::size_t side, std::size_t input_choice, const RowPlace& place,
+                             ConstRow cells, MutableRow result) const {
   std::fill(result.begin(), result.end(), 0);
-  const Side& own = sides_[side];
-  const std::int64_t u = own.parts[part], first = place.row * grid_.row_length();
-  if (!own.is_along) {
-    if (passes(own.dimension, abstraction_.raw(own.dimension, first, u)))
+  const Side& chosen = sides_[side];
+  const std::int64_t u = chosen.input_choices[input_choice], first = place.row * grid_.row_length();
+  if (!chosen.is_along) {
+    if (passes(chosen.dimension, abstraction_.raw(chosen.dimension, first, u)))
       std::copy(cells.begin(), cells.end(), result.begin());
     return;
   }
-  const TransitionTable& table = abstraction_.tables[own.dimension];
+  const TransitionTable& table = abstraction_.tables[chosen.dimension];
   std::vector<std::int64_t> inputs(abstraction_.inputs.size()), states(grid_.size());
   for (std::size_t j = 0; j < inputs.size(); ++j) inputs[j] = abstraction_.inputs.index(u, j);
   for (std::size_t i = 0; i < states.size(); ++i) states[i] = grid_.index(first, i);
@@ -145,7 +145,8 @@ void SafeSides::find_leaving(std::size_t side, std::size_t part, const RowPlace&
   for_each_bit(cells, [&](std::int64_t lane) {
     if (is_simple) states.back() = lane;
     const auto state = [&](std::size_t i) { return is_simple ? states[i] : grid_.index(first + lane, i); };
-    if (passes(own.dimension, table.range(own.dimension, state, [&](std::size_t j) { return inputs[j]; })))
+    if (passes(chosen.dimension,
+               table.range(chosen.dimension, state, [&](std::size_t j) { return inputs[j]; })))
       set_lane(lane, result.data());
   });
 }
@@ -160,7 +161,7 @@ void SafeSides::add(std::size_t i) {
     counts.push_back(abstraction_.inputs[at(j)].count());
     strides.push_back(abstraction_.inputs.stride(at(j)));
   }
-  side.parts = numbers(counts, strides);
+  side.input_choices = numbers(counts, strides);
   counts.clear();
   strides.clear();
   for (std::size_t j = 0; j < abstraction_.inputs.size(); ++j) {
@@ -202,9 +203,9 @@ void SafeSides::add_choices(Side& side) const {
 
 void SafeSides::choose_outward() {
   outward_ = abstraction_.inputs.count() - 1;
-  const RowShare::Range own = own_rows(engine_.share(), engine_.rows());
-  if (own.begin == own.end) return;
-  std::int64_t x = (own.begin + (own.end - own.begin) / 2) * grid_.row_length();
+  const RowShare::Range local = local_rows(engine_.share(), engine_.rows());
+  if (local.begin == local.end) return;
+  std::int64_t x = (local.begin + (local.end - local.begin) / 2) * grid_.row_length();
   bool is_first = true;
   engine_.posts().shape.for_each_run([&](std::int64_t begin, std::int64_t count) {
     if (std::exchange(is_first, false)) x += begin + count / 2;
@@ -258,7 +259,8 @@ void SafeSides::fill_ahead(Side& side) const {
 std::int64_t SafeSides::choices(const Side& side) const {
   const RowSlices& slices = engine_.slices()[side.dimension];
   const std::int64_t count = slices.size() / slices.input_combinations;
-  const std::int64_t looks = count * (side.is_along ? grid_.row_length() : 1) * std::ssize(side.parts);
+  const std::int64_t looks =
+      count * (side.is_along ? grid_.row_length() : 1) * std::ssize(side.input_choices);
   return looks > engine_.rows() * grid_.row_length() ? 0 : count;
 }
 
@@ -296,7 +298,7 @@ bool SafeSides::is_near(const Side& side, std::int64_t x) const {
   const auto state = [&](std::size_t i) { return grid_.index(x, i); };
   return passes(side.dimension, table.is_sum()
                                     ? around_sums(side, x)
-                                    : table.around_inputs(side.dimension, state, side.parts.size()));
+                                    : table.around_inputs(side.dimension, state, side.input_choices.size()));
 }
 
 IndexRange SafeSides::around_sums(const Side& side, std::int64_t x) const {
@@ -315,9 +317,9 @@ IndexRange SafeSides::around_sums(const Side& side, std::int64_t x) const {
       greatest = std::max(greatest, uppers[other]);
     }
     for (std::size_t t = 0; t < table.terms.size(); ++t) {
-      const std::size_t place = at(positions[t] + side.of_terms[k + 1 + t]);
-      least += table.terms[t].lower[place];
-      greatest += table.terms[t].upper[place];
+      const std::size_t position = at(positions[t] + side.of_terms[k + 1 + t]);
+      least += table.terms[t].lower[position];
+      greatest += table.terms[t].upper[position];
     }
     lower = std::min(lower, least);
     upper = std::max(upper, greatest);
@@ -332,7 +334,7 @@ std::int64_t SafeSides::least_gain(const Side& side, std::int64_t x) const {
   REQUIRES(!table.is_sum());
   const std::size_t first = at(first_position(grid_, table, table.state_stride, x) - table.before);
   IndexRange common = table.entries[first];
-  for (std::size_t k = 1; k < side.parts.size(); ++k) {
+  for (std::size_t k = 1; k < side.input_choices.size(); ++k) {
     common.first = std::max(common.first, table.entries[first + k].first);
     common.last = std::min(common.last, table.entries[first + k].last);
   }

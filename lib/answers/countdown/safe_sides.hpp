@@ -17,7 +17,7 @@ namespace coordreq {
 /// from a cell in the middle. From most cells near a side it leads out, so that it is looked at first.
 ///
 /// Where a side depends on few of the states across rows, all that is found once for all rows that agree in
-/// these; else when a row is asked about.
+/// these; else when a row is queried.
 ///
 /// Safe to share between threads but during make_ready().
 class SafeSides {
@@ -25,7 +25,7 @@ class SafeSides {
   /// @pre unchecked: `context` outlives this object
   explicit SafeSides(const AnalysisContext& context);
 
-  /// Whether find_ahead() may be asked.
+  /// Whether find_ahead() may be called.
   [[nodiscard]] bool knows_ahead() const;
   /// result = of these cells of a row those that are *ahead*: every joint input, in C(x) or not, leads out
   /// through a side or to a cell that is further outward, by the sum of the indices in the dimensions of the
@@ -39,12 +39,14 @@ class SafeSides {
 
   [[nodiscard]] std::size_t size() const { return sides_.size(); }
   /// Number of choices of the inputs on which a side depends.
-  [[nodiscard]] std::size_t parts(std::size_t side) const { return sides_[side].parts.size(); }
+  [[nodiscard]] std::size_t input_choices(std::size_t side) const {
+    return sides_[side].input_choices.size();
+  }
   /// Calls `visit(u)` for the joint inputs that such a choice is part of, while it returns true.
   template <class Visit>
-  void for_each_input(std::size_t side, std::size_t part, const Visit& visit) const {
+  void for_each_input(std::size_t side, std::size_t input_choice, const Visit& visit) const {
     for (const std::int64_t rest : sides_[side].rests) {
-      if (!visit(sides_[side].parts[part] + rest)) return;
+      if (!visit(sides_[side].input_choices[input_choice] + rest)) return;
     }
   }
   [[nodiscard]] std::int64_t outward() const { return outward_; }
@@ -57,21 +59,22 @@ class SafeSides {
   /// The same of the outward joint input.
   void find_leaving_outward(const RowPlace& place, ConstRow cells, MutableRow result) const;
   /// The same of one side, and of one choice of its inputs.
-  void find_leaving(std::size_t side, std::size_t part, const RowPlace& place, ConstRow cells,
+  void find_leaving(std::size_t side, std::size_t input_choice, const RowPlace& place, ConstRow cells,
                     MutableRow result) const;
 
  private:
   struct Side {
     std::size_t dimension = 0;
     std::vector<std::int32_t> inputs = {};  ///< on which it depends
-    std::vector<std::int64_t> parts = {};   ///< a joint input for each choice of these, the last one fastest
-    std::vector<std::int64_t> rests = {};   ///< what each choice of all other inputs adds to its number
+    std::vector<std::int64_t> input_choices =
+        {};                                ///< a joint input for each choice of these, the last one fastest
+    std::vector<std::int64_t> rests = {};  ///< what each choice of all other inputs adds to its number
     /// If its table is a sum what choices of inputs add to positions: [choice of the inputs of terms][base,
     /// then each term], and [choice of all other inputs] of the base.
     std::vector<std::int64_t> of_terms = {}, of_base = {};
     bool is_along = false;           ///< it depends on a dimension along rows; else a row is near it or not
     std::size_t words = 1;           ///< of a row in `near` and `outward`
-    std::vector<Word> near = {};     ///< [choice(), word]; empty: found when a row is asked about
+    std::vector<Word> near = {};     ///< [choice(), word]; empty: found when a row is queried
     std::vector<Word> outward = {};  ///< likewise, the cells from which outward_ leaves
     /// [choice(), word] the cells from which every joint input leads at least one index outward in the
     /// dimension, and those from which some leads back; empty: not known.

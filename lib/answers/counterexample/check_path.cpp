@@ -10,24 +10,25 @@
 
 namespace coordreq {
 
-PathChecker::PathChecker(const CheckContext& context, const RequirementSpec& asked)
+PathChecker::PathChecker(const CheckContext& context, const RequirementSpec& requirement)
     : context_(context),
-      asked_(asked),
-      value_of_(*context.claims, *context.spec, asked),
+      requirement_(requirement),
+      value_of_(*context.claims, *context.spec, requirement),
       invariant_(context.claims->members("/invariant")),
       collision_time_(context.claims->values("/collision_time")),
       cell_(context) {
-  if (asked.kind == RequirementKind::max_arrival || asked.kind == RequirementKind::min_approach_delay)
+  if (requirement.kind == RequirementKind::max_arrival ||
+      requirement.kind == RequirementKind::min_approach_delay)
     progress_.emplace(context);
   if (progress_ && context.spec->is_goal_lasting()) {
     goal_memory_.emplace(*context.spec->goal, *context.grid);
     goal_.emplace(*context.spec, *context.spec->goal, *context.grid, *goal_memory_);
   }
-  if (!asked.partition) return;
-  partition_ = static_cast<std::size_t>(*asked.partition);
+  if (!requirement.partition) return;
+  partition_ = static_cast<std::size_t>(*requirement.partition);
   const auto& classes = context.spec->coordination.partitions[*partition_].classes;
   choices_.emplace(context, classes);
-  if (asked.kind != RequirementKind::min_silence) return;
+  if (requirement.kind != RequirementKind::min_silence) return;
   silent_.emplace(context, classes, ClassChoices::Rules::actions);
   if (context.spec->silence->has_then()) afterwards_.emplace(context, classes, ClassChoices::Rules::then);
 }
@@ -120,12 +121,12 @@ PathPhase PathChecker::phase_of(std::size_t step) const {
   if (afterwards_) return PathPhase::afterwards;
   if (invariant_[cell_.at()] == 0) return PathPhase::evasive;
   if (!progress_) return PathPhase::independent;
-  if (asked_.kind == RequirementKind::max_arrival) return PathPhase::together;
+  if (requirement_.kind == RequirementKind::max_arrival) return PathPhase::together;
   const std::int32_t arrival = progress_->arrival(cell_.at());
   if (step == 0 && arrival == kUnbounded) return PathPhase::together;
   const PathPhase before = step == 0 ? PathPhase::approaching : path_->phase[step - 1];
-  const bool is_over = before == PathPhase::approaching && arrival == 0 && !goal_;
-  return is_over ? PathPhase::independent : before;
+  const bool is_terminal = before == PathPhase::approaching && arrival == 0 && !goal_;
+  return is_terminal ? PathPhase::independent : before;
 }
 
 void PathChecker::check_together(std::size_t step, std::int64_t u) {
@@ -157,7 +158,7 @@ void PathChecker::check_independent(std::size_t step, std::int64_t u) {
   if (!partition_) return wrong(step, "begins in the invariance set");
   if (!is_choice(u, cell_.admitted())) differs(step, "the joint input is not an independent choice");
   // Agents who see only themselves know the first cell, and then count down.
-  const bool is_blind = asked_.kind == RequirementKind::min_blind_delay;
+  const bool is_blind = requirement_.kind == RequirementKind::min_blind_delay;
   const auto delay_of = [&](std::size_t sample) {
     const char* const path = !is_blind ? "/delay" : sample == 0 ? "/blind_delay" : "/blind_countdown";
     return context_.claims->values(path, *partition_)[path_->cell[sample]];
@@ -205,7 +206,7 @@ bool PathChecker::ends_without_rule(std::size_t cell) {
 
 void PathChecker::check_next(std::size_t step, std::int64_t u) {
   if (cell_.is_forbidden(u)) return differs(step, "continues with a joint input that is forbidden");
-  if (is_blocked(u) || !cell_.is_way_safe(u))
+  if (is_blocked(u) || !cell_.is_tube_safe(u))
     return differs(step, "continues although no transition is safe");
   if (!is_in_post(u, static_cast<std::int64_t>(path_->cell[step + 1])))
     differs(step, "the next cell is not in the successor set");
@@ -227,7 +228,7 @@ void PathChecker::check_last_step(std::int64_t u) {
   }
   if (path_->end >= PathEnd::arrived) return;  // the post has left through a `goal` side
   if (path_->end == PathEnd::unsafe_between_samples) {
-    if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the motion to the next sample is safe");
+    if (is_blocked(u) || cell_.is_tube_safe(u)) differs(step, "the motion to the next sample is safe");
   } else if (path_->end != PathEnd::left_domain || !path_->left_side) {
     wrong(step, "the last action leads nowhere, but the end is another");
   } else if (!leaves_domain(u, *path_->left_side)) {
@@ -246,9 +247,9 @@ void PathChecker::check_end() {
     bool any = false;
     for (std::int64_t u = 0; safe && u < context_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
     if (!stays || !safe || any) wrong(path_->samples(), "in the last cell some joint input is allowed");
-  } else if (path_->end == PathEnd::too_risky || asked_.kind == RequirementKind::max_risk) {
+  } else if (path_->end == PathEnd::too_risky || requirement_.kind == RequirementKind::max_risk) {
     const bool is_alone = path_->samples() == 1 && path_->steps() == 0;
-    if (!is_alone || path_->end != PathEnd::too_risky || asked_.kind != RequirementKind::max_risk)
+    if (!is_alone || path_->end != PathEnd::too_risky || requirement_.kind != RequirementKind::max_risk)
       wrong(path_->samples(), "a risk is that of one cell");
   } else if (path_->end == PathEnd::no_common_action) {
     if (!stays || path_->steps() == 0 || !ends_in_sight(static_cast<std::size_t>(last)))
@@ -268,15 +269,15 @@ void PathChecker::check_end() {
 /// Whether a class has no action for all cells that it may be in, though agents who see everything would have
 /// one.
 bool PathChecker::ends_in_sight(std::size_t cell) const {
-  return asked_.kind == RequirementKind::min_blind_delay &&
+  return requirement_.kind == RequirementKind::min_blind_delay &&
          context_.claims->values("/blind_countdown", *partition_)[cell] == 0 &&
          context_.claims->values("/delay", *partition_)[cell] >= 1;
 }
 
 void PathChecker::check_goal_end() {
   const bool stays = path_->samples() > path_->steps();
-  const bool on_the_way = !path_->phase.empty() && path_->phase.back() >= PathPhase::together;
-  if (!progress_ || !on_the_way)
+  const bool before_goal = !path_->phase.empty() && path_->phase.back() >= PathPhase::together;
+  if (!progress_ || !before_goal)
     return wrong(path_->samples(), "an end of a path to the goal, which it is not");
   const auto last = path_->cell.end() - 1;
   if (path_->end == PathEnd::arrived && stays && progress_->arrival(*last) != 0)
@@ -318,7 +319,7 @@ bool PathChecker::is_permitted(std::int64_t u, ClassChoices& rules) const {
 }
 
 std::size_t PathChecker::entry(const Posts& posts, std::size_t i, std::int64_t u) const {
-  return posts.tables[i]->entry_of(*context_.grid, cell_.number()) + at(posts.input_part[i][at(u)]);
+  return posts.tables[i]->entry_of(*context_.grid, cell_.number()) + at(posts.input_offset[i][at(u)]);
 }
 
 const ResolvedRange& PathChecker::range(std::size_t i, std::int64_t u) const {

@@ -23,7 +23,7 @@ namespace coordreq {
 /// goal, for only these lose one.
 class PathChecker {
  public:
-  PathChecker(const CheckContext& context, const RequirementSpec& asked);
+  PathChecker(const CheckContext& context, const RequirementSpec& requirement);
 
   /// @param tally of one requirement, for samples and steps
   void check(const ResultPath& path, Tally& tally);
@@ -61,7 +61,7 @@ class PathChecker {
   void differs(std::size_t number, const std::string& what);
 
   const CheckContext& context_;
-  const RequirementSpec& asked_;
+  const RequirementSpec& requirement_;
   ClaimedValues value_of_;
   const std::vector<std::uint8_t>& invariant_;
   const std::vector<std::int32_t>& collision_time_;

@@ -18,13 +18,13 @@ constexpr std::int64_t kMostLooks = 200'000;
 /// Finds which of equal steps to take from a cell on.
 PathSearch::Choices find_choices(std::int64_t cell, PathSearch& search, PathRun& run) {
   run.begin_path(cell);
-  const FollowedState here = *run.place();
+  const FollowedState here = *run.position();
   PathSearch::Choices choices = search.find(run);
   run.go_to(here);
   return choices;
 }
 
-FoundPath find_path(const CounterexampleProblem& problem, std::int64_t cell, const Start& start) {
+CellPath find_path(const CounterexampleProblem& problem, std::int64_t cell, const Start& start) {
   PathFinder run(problem);
   run.start_at(cell, start);
   PathSearch search(kMostLooks);
@@ -51,16 +51,16 @@ std::int32_t simulate_nominally(const CounterexampleProblem& problem, std::int64
     run.begin_path(cell);
     run.step_alone(next < choices.size() ? choices[next++] : 0);
     const Reached& reached = run.reached();
-    const FoundPath& path = run.path();
-    if (path.joint_inputs.empty() || !reached.place.is_known) break;
+    const CellPath& path = run.path();
+    if (path.joint_inputs.empty() || !reached.successor.is_known) break;
     if (!first) first = path.phases.front();
     const bool is_inside = *first == PathPhase::independent || *first == PathPhase::silent;
     const bool is_kept = is_inside ? reached.is_inside : reached.is_safe;
     if (!is_kept || path.end == PathEnd::not_allowed) return steps;
     if (!is_inside && reached.is_inside) break;  // the actions outside lead it back inside
-    if (reached.place.kind != Location::Kind::cell) break;
+    if (reached.successor.kind != Location::Kind::cell) break;
     run.advance();
-    cell = reached.place.cell;
+    cell = reached.successor.cell;
   }
   return ResultPath::kNotLeft;
 }
@@ -95,13 +95,13 @@ struct PathWriter {
   }
 };
 
-ResultPath result_of(const FoundPath& found, const CounterexampleProblem& problem) {
+ResultPath result_of(const CellPath& path, const CounterexampleProblem& problem) {
   PathWriter writer{problem};
-  writer.path.phase = found.phases;
-  writer.path.end = found.end;
-  for (const std::int64_t x : found.cells) writer.add_sample(x);
-  for (const std::int64_t u : found.joint_inputs) writer.add_step(u);
-  for (const DomainSide& side : found.sides) {
+  writer.path.phase = path.phases;
+  writer.path.end = path.end;
+  for (const std::int64_t x : path.cells) writer.add_sample(x);
+  for (const std::int64_t u : path.joint_inputs) writer.add_step(u);
+  for (const DomainSide& side : path.sides) {
     const ResultSide named{.state = problem.context->abstraction->grid.state(side.dimension),
                            .above = side.above};
     if (!writer.path.left_side || named.state < writer.path.left_side->state) writer.path.left_side = named;

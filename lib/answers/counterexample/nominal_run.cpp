@@ -67,31 +67,31 @@ std::optional<Rational> NominalRun::next(std::size_t state, std::int64_t u) {
   return entry->second;
 }
 
-NominalRun::Place NominalRun::after(std::int64_t cell, std::int64_t u) {
+NominalRun::Successor NominalRun::after(std::int64_t cell, std::int64_t u) {
   REQUIRES(is_followed());
   const UniformGrid& grid = abstraction_.grid;
-  std::vector<Rational> found(grid.size());
+  std::vector<Rational> point(grid.size());
   for (std::size_t d = 0; d < grid.size(); ++d) {
     const std::size_t state = grid.state(d);
     if (spec_.dynamics.is_kept(state)) {
-      found[d] = grid[d].point(abstraction_.raw(d, cell, u).first);
+      point[d] = grid[d].point(abstraction_.raw(d, cell, u).first);
       continue;
     }
     const std::optional<Rational> value = next(state, u);
     if (!value) return {};
-    found[d] = *value;
+    point[d] = *value;
   }
-  const Location location = locate(grid, found);
+  const Location location = locate(grid, point);
   return {.is_known = true, .kind = location.kind, .cell = location.cell};
 }
 
-void NominalRun::advance(std::int64_t u, const Place& place) {
-  if (!place.is_known || place.kind != Location::Kind::cell) return stop();
+void NominalRun::advance(std::int64_t u, const Successor& successor) {
+  if (!successor.is_known || successor.kind != Location::Kind::cell) return stop();
   std::vector<Rational> reached(spec_.states.size());
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const std::size_t d = abstraction_.grid.dimension_of(i);
     reached[i] = spec_.dynamics.is_kept(i)
-                     ? abstraction_.grid[d].point(abstraction_.grid.index(place.cell, d))
+                     ? abstraction_.grid[d].point(abstraction_.grid.index(successor.cell, d))
                      : next(i, u).value();
   }
   start(std::move(reached));

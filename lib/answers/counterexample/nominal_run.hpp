@@ -35,17 +35,17 @@ class NominalRun {
     return *state_;
   }
 
-  /// Its place after a step.
-  struct Place {
+  /// Where it is after a step.
+  struct Successor {
     bool is_known = false;
     Location::Kind kind = Location::Kind::beyond;
     std::int64_t cell = -1;  ///< if `kind` is a cell
   };
-  /// Its place after a step under `u` from the present state, in a cell that this process holds. @pre it is
+  /// Where it is after a step under `u` from the present state, in a cell that this process holds. @pre it is
   /// followed
-  [[nodiscard]] Place after(std::int64_t cell, std::int64_t u);
-  /// Takes a step. @param place after() of the process that holds the cell
-  void advance(std::int64_t u, const Place& place);
+  [[nodiscard]] Successor after(std::int64_t cell, std::int64_t u);
+  /// Takes a step. @param successor after() of the process that holds the cell
+  void advance(std::int64_t u, const Successor& successor);
 
  private:
   [[nodiscard]] std::optional<Rational> next(std::size_t state, std::int64_t u);

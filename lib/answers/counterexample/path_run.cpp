@@ -28,20 +28,20 @@ void PathRun::begin_path(std::int64_t cell) {
   last_.goes_on = true;
 }
 
-std::optional<FollowedState> PathRun::place() const {
+std::optional<FollowedState> PathRun::position() const {
   if (!goes_on() || !real_.is_followed()) return std::nullopt;
   return FollowedState{path_.cells.back(), phase_, real_.state(), path_.joint_inputs.size()};
 }
 
-void PathRun::go_to(const FollowedState& place) {
-  path_.joint_inputs.resize(place.steps);
-  path_.phases.resize(place.steps);
-  path_.cells.resize(place.steps + 1);
+void PathRun::go_to(const FollowedState& position) {
+  path_.joint_inputs.resize(position.steps);
+  path_.phases.resize(position.steps);
+  path_.cells.resize(position.steps + 1);
   path_.sides.clear();
   path_.end = PathEnd::outside_safe_set;
-  path_.followed = static_cast<std::int64_t>(place.steps);
-  phase_ = place.phase;
-  real_.start(place.state);
+  path_.followed = static_cast<std::int64_t>(position.steps);
+  phase_ = position.phase;
+  real_.start(position.state);
   last_.goes_on = true;
 }
 
@@ -50,7 +50,7 @@ std::int64_t PathRun::step(std::int64_t number) {
   step_alone(number);
   if (real_.is_followed() && path_.joint_inputs.size() > steps) {
     advance();
-    if (path_.cells.back() != reached().place.cell) real_.stop();
+    if (path_.cells.back() != reached().successor.cell) real_.stop();
     if (real_.is_followed()) ++path_.followed;
   }
   return posts_.inputs().count();
@@ -70,17 +70,17 @@ void PathRun::step_here() {
   last_.goes_on = add_step();
   if (!real_.is_followed() || path_.joint_inputs.size() == steps) return;
   Reached& reached = last_.reached;
-  reached.place = real_.after(cell, path_.joint_inputs.back());
-  const bool is_cell = reached.place.kind == Location::Kind::cell;
+  reached.successor = real_.after(cell, path_.joint_inputs.back());
+  const bool is_cell = reached.successor.kind == Location::Kind::cell;
   posts_.move_to(cell);
   const CellPost post = posts_.post(path_.joint_inputs.back(), tubes_);
-  if (is_cell && !StepFinder::holds(posts_.grid(), post, reached.place.cell)) {
+  if (is_cell && !StepFinder::holds(posts_.grid(), post, reached.successor.cell)) {
     reached = {};  // the steps from its cell may not be known
     return;
   }
-  const bool has_left = reached.place.kind == Location::Kind::left_safely;
-  reached.is_safe = is_cell ? problem_.collision_time(reached.place.cell) > 0 : has_left;
-  if (problem_.inside) reached.is_inside = is_cell ? problem_.inside(reached.place.cell) : has_left;
+  const bool has_left = reached.successor.kind == Location::Kind::left_safely;
+  reached.is_safe = is_cell ? problem_.collision_time(reached.successor.cell) > 0 : has_left;
+  if (problem_.inside) reached.is_inside = is_cell ? problem_.inside(reached.successor.cell) : has_left;
 }
 
 /// Takes a step, which the owner of the last cell finds for all processes.
@@ -107,9 +107,9 @@ Bytes PathRun::last_step(std::size_t inputs, std::size_t cells) const {
   std::vector<std::int64_t> numbers = {last_.goes_on ? 1 : 0,
                                        last_.has_more ? 1 : 0,
                                        static_cast<std::int64_t>(phase_),
-                                       reached.place.is_known ? 1 : 0,
-                                       static_cast<std::int64_t>(reached.place.kind),
-                                       reached.place.cell,
+                                       reached.successor.is_known ? 1 : 0,
+                                       static_cast<std::int64_t>(reached.successor.kind),
+                                       reached.successor.cell,
                                        reached.is_inside ? 1 : 0,
                                        reached.is_safe ? 1 : 0,
                                        static_cast<std::int64_t>(path_.end),
@@ -130,9 +130,9 @@ void PathRun::read(const Bytes& message) {
   last_.has_more = reader.number() != 0;
   phase_ = static_cast<std::size_t>(reader.number());
   Reached& reached = last_.reached;
-  reached.place.is_known = reader.number() != 0;
-  reached.place.kind = static_cast<Location::Kind>(reader.number());
-  reached.place.cell = reader.number();
+  reached.successor.is_known = reader.number() != 0;
+  reached.successor.kind = static_cast<Location::Kind>(reader.number());
+  reached.successor.cell = reader.number();
   reached.is_inside = reader.number() != 0;
   reached.is_safe = reader.number() != 0;
   path_.end = static_cast<PathEnd>(reader.number());

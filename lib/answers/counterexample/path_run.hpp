@@ -12,7 +12,7 @@
 namespace coordreq {
 
 /// The cells of a counterexample and what leads from one to the next.
-struct FoundPath {
+struct CellPath {
   std::vector<std::int64_t> cells;         ///< one more than steps, unless the last action leads to no cell
   std::vector<std::int64_t> joint_inputs;  ///< one a step
   std::vector<PathPhase> phases;           ///< one a step
@@ -23,7 +23,7 @@ struct FoundPath {
 
 /// Where the system itself is after a step; beyond a `safe` side it is in all sets.
 struct Reached {
-  NominalRun::Place place;
+  NominalRun::Successor successor;
   bool is_inside = false;  ///< in CounterexampleProblem::inside
   bool is_safe = false;
 };
@@ -44,8 +44,8 @@ class PathRun {
   void begin_path(std::int64_t cell);
 
   /// Where the system itself is; nothing if it is no longer followed.
-  [[nodiscard]] std::optional<FollowedState> place() const;
-  void go_to(const FollowedState& place);
+  [[nodiscard]] std::optional<FollowedState> position() const;
+  void go_to(const FollowedState& position);
   /// Takes a step, and the system itself with it. @returns the number of looks at joint inputs
   std::int64_t step(std::int64_t number);
   /// Whether there are equal steps of greater numbers than the last one.
@@ -56,10 +56,10 @@ class PathRun {
   /// Takes a step of the path; the system itself stays.
   void step_alone(std::int64_t number);
   /// Moves the system itself to reached(), after step_alone().
-  void advance() { real_.advance(path_.joint_inputs.back(), last_.reached.place); }
+  void advance() { real_.advance(path_.joint_inputs.back(), last_.reached.successor); }
   [[nodiscard]] const Reached& reached() const { return last_.reached; }
   [[nodiscard]] bool goes_on() const { return last_.goes_on; }
-  [[nodiscard]] FoundPath& path() { return path_; }
+  [[nodiscard]] CellPath& path() { return path_; }
 
  protected:
   /// Adds a step to the path, from the last cell, which this process owns. @returns whether to go on
@@ -72,7 +72,7 @@ class PathRun {
   const AnalysisContext& context_;
   TubeSets tubes_;
   CellPosts posts_;
-  FoundPath path_;
+  CellPath path_;
   std::size_t phase_ = 0;  ///< of the next step
   NominalRun real_;
 

@@ -64,9 +64,9 @@ bool StepFinder::holds(const UniformGrid& grid, const CellPost& post, std::int64
 /// followed.
 std::int64_t StepFinder::real_cell(std::int64_t cell, const CellPost& post, std::int64_t u) {
   if (!real_.is_followed() || post.all_left) return -1;
-  const NominalRun::Place place = real_.after(cell, u);
-  const bool is_cell = place.is_known && place.kind == Location::Kind::cell;
-  return is_cell && holds(posts_.grid(), post, place.cell) ? place.cell : -1;
+  const NominalRun::Successor successor = real_.after(cell, u);
+  const bool is_cell = successor.is_known && successor.kind == Location::Kind::cell;
+  return is_cell && holds(posts_.grid(), post, successor.cell) ? successor.cell : -1;
 }
 
 std::int64_t StepFinder::next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,

@@ -29,7 +29,7 @@ void add_then(const ProblemSpec& spec, const LongestReturns& returns, Json& goal
   goal["then"] = goal_then_name(spec.goal_then);
   if (spec.goal_then != GoalThen::come_back) return;
   goal["longest_return"] = returns.forced ? Json(*returns.forced) : Json();
-  goal["longest_gap"] = returns.any_way ? Json(*returns.any_way) : Json();
+  goal["longest_gap"] = returns.any_choice ? Json(*returns.any_choice) : Json();
 }
 
 void find_arrival(Answers& answers, const StageWork& work) {
@@ -39,11 +39,12 @@ void find_arrival(Answers& answers, const StageWork& work) {
   goal.engine = std::make_unique<ProgressEngine>(context);
   const RowShare* const share = context.shared_rows();
   const CellSet safe =
-      context.over ? *context.over
-                   : part_of(cells_that_satisfy(*context.spec.goal, context.spec, context.abstraction->grid,
-                                                context.abstraction->inputs, work.team, share),
-                             context.safe, true, share);
-  goal.cells = part_of(safe, *controller.invariant, true, share);
+      context.terminal
+          ? *context.terminal
+          : subset_of(cells_that_satisfy(*context.spec.goal, context.spec, context.abstraction->grid,
+                                         context.abstraction->inputs, work.team, share),
+                      context.safe, true, share);
+  goal.cells = subset_of(safe, *controller.invariant, true, share);
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
   const GoalThen then = context.spec.goal_then;
@@ -58,14 +59,14 @@ void find_arrival(Answers& answers, const StageWork& work) {
   goal.longest = longest_arrival(goal.nearness, work.team);
   goal.sizes = {context.count(goal.cells), context.count(goal.winning), context.count(safe)};
   if (context.spec.is_goal_lasting()) {
-    goal.away = goal.winning;
+    goal.outside_goal = goal.winning;
     goal.bounds = progress_bounds(lasting, goal.nearness, then);
   } else {
-    goal.away = part_of(goal.winning, goal.cells, false, share);
+    goal.outside_goal = subset_of(goal.winning, goal.cells, false, share);
   }
   if (then == GoalThen::come_back) goal.returns = find_longest_returns(lasting, goal.nearness, work.team);
   goal.progress = Controller{.engine = &engine,
-                             .invariant = &goal.away,
+                             .invariant = &goal.outside_goal,
                              .levels = &goal.nearness,
                              .synthesis = controller.synthesis,
                              .approaches = true,
@@ -82,15 +83,15 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   const ApproachSets sets{.progress = goal.engine.get(),
                           .nearness = &goal.nearness,
                           .goal = is_lasting ? nullptr : &goal.cells,
-                          .away = &goal.away,
+                          .outside_goal = &goal.outside_goal,
                           .bounds = goal.progress.bounds};
   const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
-    work.enter_part("projections");
+    work.enter_substage("projections");
     const PartitionSpec& partition = spec.coordination.partitions[p];
     const ActionGrouping grouping(engine, input_classes(spec, answers.context.abstraction->inputs, partition),
                                   work.team);
     const Projections projections(goal.progress, grouping, work.team);
-    work.enter_part("");
+    work.enter_substage("");
     return find_approach_levels(sets, projections, layers, spec.coordination.max_delay, watch, work.team,
                                 counts);
   };
@@ -157,7 +158,7 @@ Warnings advise_on_goal(const Answers& answers) {
                           goal->sizes.safe == 1 ? "one is" : grouped(goal->sizes.safe) + " are");
     return {{"goal", "/goal",
              fmt::format("no cell of the {} set is in the goal on this grid: it cannot be forced{}",
-                         answers.context.over ? "safe" : "invariance", hint)}};
+                         answers.context.terminal ? "safe" : "invariance", hint)}};
   }
   if (goal->longest.value_or(0) > 0) return {};
   const bool is_closed = answers.context.spec.abstraction.cells == Cells::closed;
@@ -196,24 +197,26 @@ MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
 
 }  // namespace
 
-std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, bool is_in_goal_only) {
-  auto result = std::make_unique<ControllerParts>();
+std::unique_ptr<const PiecewiseController> piecewise_controller(const Answers& answers,
+                                                                bool is_in_goal_only) {
+  auto result = std::make_unique<PiecewiseController>();
   Controller everywhere = answers.get<Controller>();
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr) {
-    result->parts.push_back({everywhere, &*answers.context.hull});
+    result->pieces.push_back({everywhere, &*answers.context.hull});
     return result;
   }
   // In cells where the task is over no convention is needed.
-  const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
+  const CellSet& nonterminal = *answers.get<NonterminalController>().controller.invariant;
   const bool is_lasting = answers.context.spec.is_goal_lasting();
   result->rest = is_in_goal_only && is_lasting ? CellSet(goal->cells.rows(), goal->cells.row_length())
-                 : is_in_goal_only             ? goal->cells
-                                   : part_of(going_on, goal->away, false, answers.context.shared_rows());
+                 : is_in_goal_only
+                     ? goal->cells
+                     : subset_of(nonterminal, goal->outside_goal, false, answers.context.shared_rows());
   everywhere.whole = everywhere.invariant;
   everywhere.invariant = &result->rest;
-  result->parts.push_back({everywhere, &*answers.context.hull});
-  result->parts.push_back({goal->progress, &goal->engine->hull()});
+  result->pieces.push_back({everywhere, &*answers.context.hull});
+  result->pieces.push_back({goal->progress, &goal->engine->hull()});
   return result;
 }
 

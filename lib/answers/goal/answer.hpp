@@ -18,9 +18,9 @@ namespace coordreq {
 /// section 5); of a lasting goal the same by section 11.
 struct Goal {
   std::unique_ptr<ProgressEngine> engine;
-  CellSet cells;    ///< G
-  CellSet winning;  ///< W
-  CellSet away;     ///< W \ G; of a lasting goal W: where P holds
+  CellSet cells;         ///< G
+  CellSet winning;       ///< W
+  CellSet outside_goal;  ///< W \ G; of a lasting goal W: where P holds
   struct Sizes {
     std::int64_t cells = 0;    ///< |G|
     std::int64_t winning = 0;  ///< |W|
@@ -43,13 +43,13 @@ struct PartialController {
   const RowHull* hull = nullptr;
 };
 /// The controllers and sets to which a PartialController refers, beside the answers.
-struct ControllerParts {
+struct PiecewiseController {
   CellSet rest;  ///< the cells of K where C holds
-  std::vector<PartialController> parts;
+  std::vector<PartialController> pieces;
 };
 /// @param is_in_goal_only whether C holds in G alone, and not in all of K outside W \ G
-[[nodiscard]] std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers,
-                                                                      bool is_in_goal_only);
+[[nodiscard]] std::unique_ptr<const PiecewiseController> piecewise_controller(const Answers& answers,
+                                                                              bool is_in_goal_only);
 
 extern const Answer goal_answer;
 

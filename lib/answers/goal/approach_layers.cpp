@@ -13,28 +13,28 @@
 namespace coordreq {
 namespace {
 
-/// The cells of `away` where every choice of IND_P comes nearer to the goal, as P asks.
+/// The cells of `outside_goal` where every choice of IND_P comes nearer to the goal, as P requires.
 CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, ThreadTeam& team) {
   const RowEngine& engine = sets.progress->engine();
   CellSet result(engine.rows(), engine.row_length());
   sets.nearness->visit([&]<class Level>(const LevelRows<Level>& levels) {
     const LevelRows<Level>& bounds = bounds_of(Controller{.bounds = sets.bounds}, levels);
-    IndependentActions<Level> actions(projections, *sets.away, team.size());
+    IndependentActions<Level> actions(projections, *sets.outside_goal, team.size());
     std::deque<PostReader<Level>> readers;
     for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
     const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
       std::vector<Level> least(posts.lanes(), 0);
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
-        const ConstRow away = sets.away->row(place.row);
-        if (!any_set(away)) continue;
+        const ConstRow outside_goal = sets.outside_goal->row(place.row);
+        if (!any_set(outside_goal)) continue;
         actions.find_minimum(place, posts, least.data(), worker);
         const MutableRow nearing = result.row(place.row);
         posts.kernels().above_bits(least.data(), bounds.row(place.row), nearing.data(),
                                    static_cast<std::size_t>(engine.row_length()));
-        for (std::size_t w = 0; w < nearing.size(); ++w) nearing[w] &= away[w];
+        for (std::size_t w = 0; w < nearing.size(); ++w) nearing[w] &= outside_goal[w];
       }
     });
   });
@@ -48,7 +48,7 @@ class ApproachActions final : public RowOperator<Level> {
  public:
   ApproachActions(const ApproachSets& sets, const Projections& projections, const CellSet& nearing,
                   int workers)
-      : actions_(projections, *sets.away, workers),
+      : actions_(projections, *sets.outside_goal, workers),
         nearing_(nearing),
         lanes_(static_cast<std::size_t>(workers)) {}
 
@@ -80,15 +80,17 @@ LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const De
   return layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& safe) {
     auto levels = engine.make_levels<Level>(engine.posts());
     std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
-    const RowShare::Range rows = own_rows(engine.share(), levels.rows());
+    const RowShare::Range rows = local_rows(engine.share(), levels.rows());
     for (std::int64_t r = rows.begin; r < rows.end; ++r) {
-      const Level* const own = safe.row(r);
+      const Level* const safe_row = safe.row(r);
       std::fill(cells.begin(), cells.end(), Level{0});
-      for_each_bit(sets.away->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
+      for_each_bit(sets.outside_goal->row(r),
+                   [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
       for_each_bit(nearing.row(r),
                    [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = LevelRows<Level>::kTop; });
       if (sets.goal != nullptr)
-        for_each_bit(sets.goal->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = own[x]; });
+        for_each_bit(sets.goal->row(r),
+                     [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = safe_row[x]; });
       levels.put(r, cells.data());
     }
     if (engine.share() != nullptr) {
@@ -116,9 +118,9 @@ LevelMap find_approach_levels(const ApproachSets& sets, const Projections& proje
   LevelMap start;
   WaveWatch inner_watch = watch;
   if (inner_watch.resumed == nullptr) {
-    // Levels above the limit count as kTop, so that nothing is asked of W itself.
+    // Levels above the limit count as kTop, so that nothing is required of W itself.
     const bool is_w_all = sets.goal == nullptr && max_delay == 0;
-    start = first_levels(sets, is_w_all ? *sets.away : nearing, layers);
+    start = first_levels(sets, is_w_all ? *sets.outside_goal : nearing, layers);
     inner_watch.resumed = &start;
   }
   return find_levels(sets.progress->engine(), sets.progress->hull(), problem, inner_watch, team, counts);

@@ -13,8 +13,8 @@ struct ApproachSets {
   const ProgressEngine* progress = nullptr;
   const LevelMap* nearness = nullptr;
   const CellSet* goal = nullptr;  ///< G, where layers are those of safety; null: nowhere, the goal is lasting
-  const CellSet* away = nullptr;  ///< W \ G; of a lasting goal W
-  const LevelMap* bounds = nullptr;  ///< Controller::bounds
+  const CellSet* outside_goal = nullptr;  ///< W \ G; of a lasting goal W
+  const LevelMap* bounds = nullptr;       ///< Controller::bounds
 };
 
 /// The levels of layers in W \ G, where agents that act alone must come nearer to the goal with every step;

@@ -75,19 +75,20 @@ std::optional<std::int32_t> longest_arrival(const LevelMap& nearness, ThreadTeam
   nearness.visit([&]<class Level>(const LevelRows<Level>& levels) {
     const DifferentRows<Level> rows(levels);
     team.for_each(rows.size(), 256, [&](ThreadTeam::Range range, int worker) {
-      std::int32_t& own = longest[static_cast<std::size_t>(worker)];
+      std::int32_t& local_longest = longest[static_cast<std::size_t>(worker)];
       rows.for_each(range, [&](const Level* row, std::int64_t) {
         levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
           for (std::int64_t x = lane; x < lane + count; ++x) {
-            if (row[x] > 1) own = std::max(own, arrival_of(row[x]));
+            if (row[x] > 1) local_longest = std::max(local_longest, arrival_of(row[x]));
           }
         });
       });
     });
   });
-  const std::int32_t own = *std::max_element(longest.begin(), longest.end());
+  const std::int32_t local_longest = *std::max_element(longest.begin(), longest.end());
   const RowShare* const share = nearness.share();
-  const auto all = share == nullptr ? own : static_cast<std::int32_t>(share->ranks().greatest(own));
+  const auto all =
+      share == nullptr ? local_longest : static_cast<std::int32_t>(share->ranks().greatest(local_longest));
   return all < 0 ? std::nullopt : std::optional<std::int32_t>(all);
 }
 

@@ -24,7 +24,7 @@ void for_each_best(const LastingProblem& problem, const ActionGrouping& grouping
   std::deque<PostReader<Level>> readers;
   for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-  for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+  for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
     PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
     std::vector<Level> old(posts.lanes(), 0), next(posts.lanes(), 0);
     for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {

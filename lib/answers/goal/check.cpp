@@ -96,7 +96,7 @@ class GoalChecker : public CellChecker {
     progress_.assign(cell.admitted().size(), 0);
     if (!cell.is_invariant()) return;
     if (arrival == 0) progress_ = cell.admitted();
-    if (by_definition_.is_on_the_way(cell.at())) progress_ = by_definition_.of(cell);
+    if (by_definition_.is_before_goal(cell.at())) progress_ = by_definition_.of(cell);
   }
 
   /// Checks arrivals, approach delays and their triggers by their local equations: the equation of arrival
@@ -139,9 +139,9 @@ class GoalChecker : public CellChecker {
     if (context_.spec->goal_then == GoalThen::come_back && claimed == 0 && best != kUnbounded) {
       std::int32_t worst = best;
       for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
-        const std::int32_t own =
+        const std::int32_t value =
             cell.admitted()[u] == 0 ? kUnbounded : by_definition_.worst(cell, static_cast<std::int64_t>(u));
-        if (own != kUnbounded) worst = std::max(worst, own);
+        if (value != kUnbounded) worst = std::max(worst, value);
       }
       lasting_->add_step(best, worst);
     }
@@ -156,7 +156,7 @@ class GoalChecker : public CellChecker {
     const auto at_most = [&most](std::int32_t steps) { return most ? std::min(steps, *most) : steps; };
     if (arrival == kUnbounded) return kOutsideWinning;
     if (arrival == 0 && lasting_ == nullptr)
-      return at_most(cell.is_over() ? kUnbounded : partition.safety[cell.at()]);
+      return at_most(cell.is_terminal() ? kUnbounded : partition.safety[cell.at()]);
     const std::int32_t limit = by_definition_.limit(cell);
     for (std::int64_t u = 0; u < choices.joint_inputs(); ++u) {
       if (choices.has(u) && (cell.is_forbidden(u) || by_definition_.worst(cell, u) > limit)) return 0;
@@ -165,7 +165,7 @@ class GoalChecker : public CellChecker {
   }
 
   static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
-    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.place(), what); });
+    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.location(), what); });
   }
 
   const CheckContext& context_;
@@ -228,7 +228,7 @@ class GoalCheck : public StepsCheck<ApproachClaims> {
   /// @param layers the most layers of any partition so far
   [[nodiscard]] Finding compare_layers(const ApproachClaims& partition, std::size_t& layers) const {
     const PartitionClaims& claims = partition.claims;
-    Comparison comparison(claims.kind.words + (" " + claims.partition.name));
+    Comparison comparison(claims.kind.label + (" " + claims.partition.name));
     const std::size_t length = claims.layer_sizes.size();
     std::vector<std::int64_t> sizes(length, 0);
     std::int64_t last = -1;  // the greatest delay that is not unbounded

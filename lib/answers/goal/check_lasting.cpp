@@ -150,7 +150,7 @@ void LastingCheck::check_all(ThreadTeam& team) {
     }
     CheckedCell cell(context_);
     cell.go_to(x);
-    least_.add_wrong(x, [&] { return cell.place() + ": could be less"; });
+    least_.add_wrong(x, [&] { return cell.location() + ": could be less"; });
   }
 }
 
@@ -163,9 +163,9 @@ Finding LastingCheck::figures() const {
   const auto cells = static_cast<std::int64_t>(claims.attribute("/arrival", "goal_cells"));
   result.expect("|G|", cells, std::clamp(cells, sure_.load(), possible_.load()));
   if (!is_return()) return result.finding();
-  const auto compare = [&](const char* name, const std::atomic<std::int32_t>& found) {
+  const auto compare = [&](const char* name, const std::atomic<std::int32_t>& value) {
     result.expect(name, static_cast<std::int64_t>(claims.attribute("/arrival", name)),
-                  std::int64_t{found.load()});
+                  std::int64_t{value.load()});
   };
   compare("longest_return", longest_return_);
   compare("longest_gap", longest_gap_);

@@ -27,11 +27,11 @@ std::string progress_path(const ProblemSpec& spec, const PartitionSpec& partitio
 }
 
 /// What arrival counts.
-struct ArrivalWords {
+struct ArrivalText {
   std::string description, compared, title;
 };
 
-ArrivalWords arrival_words(GoalThen then) {
+ArrivalText arrival_text(GoalThen then) {
   if (then == GoalThen::stay)
     return {"number of samples outside the goal, from this one on, that coordinated agents can bound",
             "samples outside the goal", "Samples outside the goal to come"};
@@ -48,14 +48,14 @@ std::vector<FieldAttribute> longest_attributes(const ProblemSpec& spec) {
 }
 
 Field arrival_field(const ProblemSpec& spec) {
-  const ArrivalWords words = arrival_words(spec.goal_then);
+  const ArrivalText text = arrival_text(spec.goal_then);
   return {.path = paths::kArrival,
           .kind = FieldKind::steps,
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes(spec),
           .least = kOutsideSafe,
-          .attributes = described(words.description) +
+          .attributes = described(text.description) +
                         std::vector<FieldAttribute>{
                             flags({kNotSafe, kNotInvariant, {kLargestValue, "goal_cannot_be_forced"}}),
                             {"goal_cells", std::uint64_t{0}, true},
@@ -63,10 +63,10 @@ Field arrival_field(const ProblemSpec& spec) {
                             {"longest_arrival", std::int64_t{0}, true}} +
                         longest_attributes(spec),
           .display = {.column = "arrival",
-                    .compared = words.compared,
-                    .less_is_better = true,
-                    .query = {.name = "arrival", .words = words.compared},
-                    .map = {.kind = "arrival", .title = words.title}}};
+                      .compared = text.compared,
+                      .less_is_better = true,
+                      .query = {.name = "arrival", .label = text.compared},
+                      .map = {.kind = "arrival", .title = text.title}}};
 }
 
 void add_approach(Fields& fields, const ProblemSpec& spec) {
@@ -77,7 +77,7 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
               flags({kNotWinning, kNotSafe, kNotInvariant, {kLargestValue, "unbounded"}})},
       {.column = "approach_delay",
        .compared = "approach delay",
-       .query = {.words = "approach delay"},
+       .query = {.label = "approach delay"},
        .map = {.kind = "approach_delay", .title = "Silence that costs no time to the goal"}},
       "/approach_fixed_point_index"));
   fields.push_back(steps_field(
@@ -91,7 +91,7 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
                                       {"connection_delay", spec.coordination.connection_delay}},
       {.column = "approach_countdown",
        .below_zero = kMustBeConnected,
-       .query = {.words = "approach: connect in"}}));
+       .query = {.label = "approach: connect in"}}));
 }
 
 template <class Integer>
@@ -109,7 +109,7 @@ FillArray fill_arrival(const Goal& goal, const LevelMap& times, const CellOrder&
   };
 }
 
-/// Writes kOutsideWinning for the cells of a stretch that are in K but not in W.
+/// Writes kOutsideWinning for the cells of a segment that are in K but not in W.
 template <class Integer>
 FillArray with_losing_cells(FillArray fill, const Goal& goal, const CellOrder& order) {
   return [fill = std::move(fill), &goal, &order](std::uint64_t begin, std::uint64_t count, void* out) {
@@ -133,16 +133,16 @@ ResultArray with_losing_cells(ResultArray array, const Goal& goal, const CellOrd
 }
 
 /// P of one class of actions, with C in G.
-ResultArray progress_bits(std::shared_ptr<const ControllerParts> parts, std::vector<InputClass> classes,
+ResultArray progress_bits(std::shared_ptr<const PiecewiseController> pieces, std::vector<InputClass> classes,
                           std::size_t c, ThreadTeam& team) {
   std::vector<std::shared_ptr<const ActionGrouping>> groupings;
-  for (const PartialController& part : parts->parts)
-    groupings.push_back(std::make_shared<const ActionGrouping>(*part.controller.engine, classes, team));
-  return {ElementType::uint8, [parts = std::move(parts), groupings = std::move(groupings), c](
+  for (const PartialController& piece : pieces->pieces)
+    groupings.push_back(std::make_shared<const ActionGrouping>(*piece.controller.engine, classes, team));
+  return {ElementType::uint8, [pieces = std::move(pieces), groupings = std::move(groupings), c](
                                   std::uint64_t begin, std::uint64_t count, void* out) {
-            fill_action_bits(parts->parts[0].controller, *groupings[0], c, begin, count, out);
+            fill_action_bits(pieces->pieces[0].controller, *groupings[0], c, begin, count, out);
             std::vector<std::uint8_t> more(count);
-            fill_action_bits(parts->parts[1].controller, *groupings[1], c, begin, count, more.data());
+            fill_action_bits(pieces->pieces[1].controller, *groupings[1], c, begin, count, more.data());
             auto* const bits = static_cast<std::uint8_t*>(out);
             for (std::uint64_t i = 0; i < count; ++i) bits[i] = static_cast<std::uint8_t>(bits[i] | more[i]);
           }};
@@ -193,21 +193,21 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
   if (spec.goal_then == GoalThen::come_back) {
     std::map<std::string, AttributeValue>& attributes = values.entries[paths::kArrival].attributes;
     attributes["longest_return"] = std::int64_t{goal->returns.forced.value_or(-1)};
-    attributes["longest_gap"] = std::int64_t{goal->returns.any_way.value_or(-1)};
+    attributes["longest_gap"] = std::int64_t{goal->returns.any_choice.value_or(-1)};
   }
   const LayersOfPartitions layers = pointers_to(goal->approach);
   fill_steps(answers, layers, paths::kApproachDelay, paths::kApproachTrigger, values,
              [goal, &order](ResultArray array) { return with_losing_cells(std::move(array), *goal, order); });
   fill_sizes(layers, kApproachKind, values);
   if (!spec.output.controller && !spec.output.actions) return;
-  const std::shared_ptr<const ControllerParts> parts = controller_parts(answers, true);
+  const std::shared_ptr<const PiecewiseController> pieces = piecewise_controller(answers, true);
   const InputSpace& inputs = answers.context.abstraction->inputs;
   if (spec.output.controller)
-    values.entries[paths::kProgress].array = progress_bits(parts, {whole_class(inputs)}, 0, team);
+    values.entries[paths::kProgress].array = progress_bits(pieces, {whole_class(inputs)}, 0, team);
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c)
       values.entries[progress_path(spec, partition, c)].array =
-          progress_bits(parts, input_classes(spec, inputs, partition), c, team);
+          progress_bits(pieces, input_classes(spec, inputs, partition), c, team);
   }
 }
 

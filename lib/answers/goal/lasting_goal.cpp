@@ -23,8 +23,8 @@ void change_levels(LevelMap& map, const Change& change) {
   change(*map.get_if<std::uint32_t>());
 }
 
-/// The observer of one of several waves: from the levels of a single wave the work cannot be taken up.
-WaveWatch watch_of_part(const WaveWatch& watch, std::int64_t sweeps_before) {
+/// The observer of one of several waves: work cannot be resumed from the levels of a single wave.
+WaveWatch watch_of_run(const WaveWatch& watch, std::int64_t sweeps_before) {
   if (!watch.step) return {};
   return {.step = [&watch, sweeps_before](WaveStep step) {
     step.sweep += sweeps_before;
@@ -105,11 +105,11 @@ class StayFinder {
   [[nodiscard]] std::int64_t sum() const {
     std::vector<std::int64_t> sums(static_cast<std::size_t>(team_.size()), 0);
     levels_.visit([&]<class Level>(const LevelRows<Level>& levels) {
-      for_each_own_row(team_, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int worker) {
-        std::int64_t& own = sums[static_cast<std::size_t>(worker)];
+      for_each_local_row(team_, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int worker) {
+        std::int64_t& sum = sums[static_cast<std::size_t>(worker)];
         for (std::int64_t r = range.begin; r < range.end; ++r) {
           levels.shape().for_each_run([&, row = levels.row(r)](std::int64_t lane, std::int64_t count) {
-            for (std::int64_t x = lane; x < lane + count; ++x) own += LevelRows<Level>::kTop - row[x];
+            for (std::int64_t x = lane; x < lane + count; ++x) sum += LevelRows<Level>::kTop - row[x];
           });
         }
       });
@@ -119,7 +119,7 @@ class StayFinder {
 
   /// The first equation of find_stay_nearness(), from v = 0 in G.
   void sink_in_goal() {
-    const WaveWatch watch = watch_of_part(watch_, counts_.sweeps);
+    const WaveWatch watch = watch_of_run(watch_, counts_.sweeps);
     change_levels(levels_, [&]<class Level>(LevelRows<Level>& levels) {
       StayActions<Level> actions(problem_, grouping_, false, team_.size());
       counts_.add(run_wave(levels, engine_, problem_.progress->hull(),
@@ -134,7 +134,7 @@ class StayFinder {
     const LevelProblem rising{.make8 = [&] { return make(std::uint8_t{}); },
                               .make16 = [&] { return make(std::uint16_t{}); },
                               .make32 = [&] { return make(std::uint32_t{}); }};
-    WaveWatch watch = watch_of_part(watch_, 0);  // find_levels() counts sweeps on
+    WaveWatch watch = watch_of_run(watch_, 0);  // find_levels() counts sweeps on
     LevelMap start = std::move(levels_);
     watch.resumed = &start;
     levels_ = find_levels(engine_, problem_.progress->hull(), rising, watch, team_, counts_);
@@ -183,12 +183,12 @@ CellSet keeping_cells(const LastingProblem& problem, const ActionGrouping& group
 }
 
 std::int64_t count_of_all(const CellSet& cells, const RowShare* share) {
-  const RowShare::Range own = own_rows(share, cells.rows());
-  return sum_of_all(share, cells.count(own.begin, own.end));
+  const RowShare::Range local = local_rows(share, cells.rows());
+  return sum_of_all(share, cells.count(local.begin, local.end));
 }
 
 /// first_nearness() of cells that only their owner knows.
-LevelMap first_nearness_of_own(const LastingProblem& problem, const CellSet& visits) {
+LevelMap first_local_nearness(const LastingProblem& problem, const CellSet& visits) {
   LevelMap start = first_nearness(problem.progress->engine(), *problem.invariant, visits, false);
   change_levels(start, []<class Level>(LevelRows<Level>& levels) {
     if (levels.share() == nullptr) return;
@@ -245,9 +245,9 @@ LevelMap find_return_nearness(const LastingProblem& problem, const WaveWatch& wa
   LevelMap nearness = first_nearness(engine, *problem.invariant, *problem.invariant, false);
   CellSet visits = keeping_cells(problem, grouping, nearness, *problem.goal, team);
   for (std::int64_t count = count_of_all(visits, share), before = -1; count != before;) {
-    LevelMap start = first_nearness_of_own(problem, visits);
+    LevelMap start = first_local_nearness(problem, visits);
     nearness = {};
-    WaveWatch round = watch_of_part(watch, 0);
+    WaveWatch round = watch_of_run(watch, 0);
     round.resumed = &start;
     nearness = find_nearness(engine, problem.progress->hull(), *problem.invariant, visits, problem.synthesis,
                              round, team, counts);
@@ -263,7 +263,7 @@ LongestReturns find_longest_returns(const LastingProblem& problem, const LevelMa
   const RowEngine& engine = problem.progress->engine();
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const CellSet visits = nearness.top_cells(team);  // G and W
-  std::vector<std::int32_t> forced(static_cast<std::size_t>(team.size()), 0), any_way = forced;
+  std::vector<std::int32_t> forced(static_cast<std::size_t>(team.size()), 0), any_choice = forced;
   nearness.visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::vector<WorstChoices<Level>> choices(static_cast<std::size_t>(team.size()),
                                              WorstChoices<Level>(grouping));
@@ -278,18 +278,20 @@ LongestReturns find_longest_returns(const LastingProblem& problem, const LevelMa
                     if (problem.synthesis == Synthesis::given) return;
                     std::vector<Level> least;
                     choices[w].find(place, posts, cells, least);
-                    for_each_bit(
-                        cells, [&](std::int64_t x) { take(any_way[w], least[static_cast<std::size_t>(x)]); });
+                    for_each_bit(cells, [&](std::int64_t x) {
+                      take(any_choice[w], least[static_cast<std::size_t>(x)]);
+                    });
                   });
   });
   const auto of_all = [&](const std::vector<std::int32_t>& longest) -> std::optional<std::int32_t> {
-    const std::int32_t own = *std::max_element(longest.begin(), longest.end());
-    const auto all =
-        engine.share() == nullptr ? own : static_cast<std::int32_t>(engine.share()->ranks().greatest(own));
+    const std::int32_t local_longest = *std::max_element(longest.begin(), longest.end());
+    const auto all = engine.share() == nullptr
+                         ? local_longest
+                         : static_cast<std::int32_t>(engine.share()->ranks().greatest(local_longest));
     return all == 0 ? std::nullopt : std::optional(all);
   };
   LongestReturns result{of_all(forced), {}};
-  result.any_way = problem.synthesis == Synthesis::given ? result.forced : of_all(any_way);
+  result.any_choice = problem.synthesis == Synthesis::given ? result.forced : of_all(any_choice);
   return result;
 }
 

@@ -50,8 +50,8 @@ using AfterRound = std::function<void(const LevelMap& nearness)>;
 
 /// The longest time between two visits of a goal to return to; nothing if there are none.
 struct LongestReturns {
-  std::optional<std::int32_t> forced;   ///< if agents choose best in G
-  std::optional<std::int32_t> any_way;  ///< whatever they choose from P
+  std::optional<std::int32_t> forced;      ///< if agents choose best in G
+  std::optional<std::int32_t> any_choice;  ///< whatever they choose from P
 };
 [[nodiscard]] LongestReturns find_longest_returns(const LastingProblem& problem, const LevelMap& nearness,
                                                   ThreadTeam& team);

@@ -29,7 +29,7 @@ class GoalPolicy : public CellPolicy {
   CellValue arrival_;
   std::int32_t least_;  ///< arrival where P holds
   ProgressInputs progress_;
-  Numbers progressing_;  ///< P(x) of the last cell asked about
+  Numbers progressing_;  ///< P(x) of the last cell queried
 };
 
 }  // namespace
@@ -45,12 +45,12 @@ std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
   return {
       {.name = kApproachKind.name,
        .kind = &kApproachKind,
-       .words = "approach",
+       .label = "approach",
        .gain = "loses no time",
        .delay = paths::kApproachDelay,
        .trigger = paths::kApproachTrigger,
        .aim = {.path = paths::kArrival,
-               .words = spec.goal_then == GoalThen::stay ? "samples outside the goal that are still to come"
+               .label = spec.goal_then == GoalThen::stay ? "samples outside the goal that are still to come"
                                                          : "steps within which the goal can be forced",
                .lasts = spec.is_goal_lasting()},
        .make = make_goal_policy,

@@ -40,7 +40,7 @@ class StayRounds {
         engine_(problem.progress->engine()),
         nearness_(nearness),
         team_(team),
-        shown_(engine_.make_levels<Level>(engine_.posts())),
+        visible_(engine_.make_levels<Level>(engine_.posts())),
         order_(engine_.make_levels<std::uint32_t>(engine_.posts())),
         open_(nearness.rows(), nearness.row_length()) {}
 
@@ -59,76 +59,76 @@ class StayRounds {
   void begin() {
     auto cells = whole_row<Level>(nearness_.row_length());
     for_each_held(nearness_.share(), nearness_.rows(), [&](std::int64_t r) {
-      const Level* const own = nearness_.row(r);
+      const Level* const nearness = nearness_.row(r);
       auto numbers = whole_row<std::uint32_t>(nearness_.row_length());
-      std::copy_n(own, nearness_.row_length(), cells.begin());
+      std::copy_n(nearness, nearness_.row_length(), cells.begin());
       const MutableRow open = open_.row(r);
       for_each_bit(problem_.goal->row(r), [&](std::int64_t x) {
         const auto lane = static_cast<std::size_t>(x);
         cells[lane] = LevelRows<Level>::kTop;
         numbers[lane] = Order::kTop;
-        if (own[x] < LevelRows<Level>::kTop) open[lane / CellSet::kWordBits] |= bit_of(x);
+        if (nearness[x] < LevelRows<Level>::kTop) open[lane / CellSet::kWordBits] |= bit_of(x);
       });
-      shown_.put(r, cells.data());
+      visible_.put(r, cells.data());
       order_.put(r, numbers.data());
     });
   }
 
   /// Finds the own cells of the next round. @returns how many there are, of all processes
   std::int64_t find(const ActionGrouping& grouping) {
-    found_ = CellSet(nearness_.rows(), nearness_.row_length());
-    for_each_best(problem_, grouping, shown_, open_, team_,
+    of_round_ = CellSet(nearness_.rows(), nearness_.row_length());
+    for_each_best(problem_, grouping, visible_, open_, team_,
                   [&](const RowPlace& place, PostReader<Level>&, const Level* best, int) {
-                    const Level* const own = nearness_.row(place.row);
-                    const MutableRow found = found_.row(place.row);
+                    const Level* const nearness = nearness_.row(place.row);
+                    const MutableRow of_round = of_round_.row(place.row);
                     for_each_bit(open_.row(place.row), [&](std::int64_t x) {
-                      if (best[x] <= own[x])
-                        found[static_cast<std::size_t>(x / CellSet::kWordBits)] |= bit_of(x);
+                      if (best[x] <= nearness[x])
+                        of_round[static_cast<std::size_t>(x / CellSet::kWordBits)] |= bit_of(x);
                     });
                   });
-    const RowShare::Range own = own_rows(nearness_.share(), found_.rows());
-    return sum_of_all(nearness_.share(), found_.count(own.begin, own.end));
+    const RowShare::Range local = local_rows(nearness_.share(), of_round_.rows());
+    return sum_of_all(nearness_.share(), of_round_.count(local.begin, local.end));
   }
 
   void take(std::uint32_t round) {
-    const RowShare::Range own = own_rows(nearness_.share(), found_.rows());
-    for (std::int64_t r = own.begin; r < own.end; ++r) {
-      if (any_set(found_.row(r))) show(r, round);
+    const RowShare::Range local = local_rows(nearness_.share(), of_round_.rows());
+    for (std::int64_t r = local.begin; r < local.end; ++r) {
+      if (any_set(of_round_.row(r))) show(r, round);
     }
     if (nearness_.share() == nullptr) return;
-    LevelMessages<Level>(shown_).exchange([this](std::int64_t row) { return any_set(found_.row(row)); },
-                                          [&](std::int64_t row, const Level* others) {
-                                            const MutableRow found = found_.row(row);
-                                            const Level* const before = shown_.row(row);
-                                            for_each_bit(problem_.goal->row(row), [&](std::int64_t x) {
-                                              if (others[x] != before[x])
-                                                found[static_cast<std::size_t>(x / CellSet::kWordBits)] |=
-                                                    bit_of(x);
-                                            });
-                                            show(row, round);
-                                          });
+    LevelMessages<Level>(visible_).exchange(
+        [this](std::int64_t row) { return any_set(of_round_.row(row)); },
+        [&](std::int64_t row, const Level* others) {
+          const MutableRow of_round = of_round_.row(row);
+          const Level* const before = visible_.row(row);
+          for_each_bit(problem_.goal->row(row), [&](std::int64_t x) {
+            if (others[x] != before[x])
+              of_round[static_cast<std::size_t>(x / CellSet::kWordBits)] |= bit_of(x);
+          });
+          show(row, round);
+        });
   }
 
   /// Shows the cells of a row that were found.
   void show(std::int64_t r, std::uint32_t round) {
-    const ConstRow found = found_.row(r);
+    const ConstRow of_round = of_round_.row(r);
     const MutableRow open = open_.row(r);
-    shown_.change_row(r, [&](Level* cells) {
-      for_each_bit(found, [&](std::int64_t x) { cells[x] = nearness_.row(r)[x]; });
+    visible_.change_row(r, [&](Level* cells) {
+      for_each_bit(of_round, [&](std::int64_t x) { cells[x] = nearness_.row(r)[x]; });
     });
     order_.change_row(
-        r, [&](std::uint32_t* cells) { for_each_bit(found, [&](std::int64_t x) { cells[x] = round; }); });
-    for (std::size_t w = 0; w < found.size(); ++w) open[w] &= ~found[w];
+        r, [&](std::uint32_t* cells) { for_each_bit(of_round, [&](std::int64_t x) { cells[x] = round; }); });
+    for (std::size_t w = 0; w < of_round.size(); ++w) open[w] &= ~of_round[w];
   }
 
   const LastingProblem& problem_;
   const RowEngine& engine_;
   const LevelRows<Level>& nearness_;
   ThreadTeam& team_;
-  LevelRows<Level> shown_;  ///< nearness outside G and in cells of earlier rounds, else kTop
+  LevelRows<Level> visible_;  ///< nearness outside G and in cells of earlier rounds, else kTop
   Order order_;
-  CellSet open_;   ///< cells of G that are in no round yet
-  CellSet found_;  ///< cells of this round
+  CellSet open_;      ///< cells of G that are in no round yet
+  CellSet of_round_;  ///< cells of this round
 };
 
 LevelMap order_of_return(const LastingProblem& problem, ThreadTeam& team) {
@@ -143,11 +143,11 @@ LevelMap order_of_return(const LastingProblem& problem, ThreadTeam& team) {
     ++round;
     nearness.visit([&]<class Level>(const LevelRows<Level>& levels) {
       for_each_held(levels.share(), levels.rows(), [&](std::int64_t r) {
-        const Level* const own = levels.row(r);
+        const Level* const row = levels.row(r);
         order.change_row(r, [&](std::uint32_t* cells) {
           levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
             for (std::int64_t x = lane; x < lane + count; ++x) {
-              if (own[x] == 1 && cells[x] == Order::kTop) cells[x] = round;
+              if (row[x] == 1 && cells[x] == Order::kTop) cells[x] = round;
             }
           });
         });

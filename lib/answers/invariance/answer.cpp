@@ -20,23 +20,23 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   const LevelBounds bounds{&context.safe, context.engine->grid().points() + 1};
   const std::optional<RowSymmetry> symmetry = context.symmetry(single_classes(context.abstraction->inputs));
   find_or_take_levels(work, *context.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
-    Invariance found =
+    Invariance invariance =
         find_invariance(*context.engine, *context.hull, context.safe, synthesis, watch, work.team,
-                        context.equal(symmetry ? &*symmetry : nullptr), context.over_or_null());
-    result.counts = found.counts;
-    return std::move(found.collision_time);
+                        context.equal(symmetry ? &*symmetry : nullptr), context.terminal_or_null());
+    result.counts = invariance.counts;
+    return std::move(invariance.collision_time);
   });
   follow_from_collision_times(result, work.team);
   const Controller& controller =
       answers.add(Controller{&*context.engine, &result.invariant, &result.collision_time, synthesis});
-  GoingOn& going_on = answers.add(GoingOn{{}, controller});
-  if (!context.over) return;
-  going_on.cells = part_of(result.invariant, *context.over, false, context.shared_rows());
-  going_on.controller.invariant = &going_on.cells;
-  going_on.controller.whole = &result.invariant;
+  NonterminalController& nonterminal = answers.add(NonterminalController{{}, controller});
+  if (!context.terminal) return;
+  nonterminal.cells = subset_of(result.invariant, *context.terminal, false, context.shared_rows());
+  nonterminal.controller.invariant = &nonterminal.cells;
+  nonterminal.controller.whole = &result.invariant;
 }
 
-/// Adds Invariance, with the Controller of its K, and GoingOn: "invariance".
+/// Adds Invariance, with the Controller of its K, and NonterminalController: "invariance".
 std::vector<Stage> invariance_stages(const ProblemSpec& /*spec*/) {
   return {{"invariance", find_invariance_set}};
 }

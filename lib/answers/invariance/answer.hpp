@@ -9,9 +9,9 @@
 
 namespace coordreq {
 
-/// The cells of K in which the task goes on, and C there: all of K but the cells of a goal that ends the
-/// task, where agents choose nothing. Code that asks for the choices of agents asks for them in these cells.
-struct GoingOn {
+/// The nonterminal cells of K, and C there: all of K but the cells of a goal that ends the
+/// task, where agents choose nothing. Code that needs the choices of agents takes them in these cells.
+struct NonterminalController {
   CellSet cells;  ///< K \ G; not used, and empty, where no goal ends the task
   Controller controller;
 };

@@ -38,7 +38,7 @@ class SetChecker : public CellChecker {
       check_outside(cell);
     } else if (!cell.is_invariant()) {
       check_escape(cell);
-    } else if (cell.is_over()) {  // the check of the goal checks that it is
+    } else if (cell.is_terminal()) {  // the check of the goal checks that it is
       tallies_.invariant.add_checked(1);
       check_collision_time(cell, kUnbounded);
     } else {
@@ -107,7 +107,7 @@ class SetChecker : public CellChecker {
       return;
     }
     tallies_.collision_time.add_wrong(cell.number(), [&] {
-      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+      return fmt::format("{}: {}, expected {}", cell.location(), step_text(claimed), step_text(expected));
     });
   }
 
@@ -117,7 +117,7 @@ class SetChecker : public CellChecker {
   }
 
   static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
-    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.place(), what); });
+    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.location(), what); });
   }
 
   const CheckContext& context_;
@@ -135,8 +135,8 @@ class InvarianceCheck : public AnswerCheck {
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     const Claims& claims = *context_.claims;
-    for (const auto& [words, path] : {std::pair("|S|", "/safe"), std::pair("|K|", "/invariant")})
-      sizes.expect(words, claims.at(path).cells.front(), count_members(claims.members(path)));
+    for (const auto& [label, path] : {std::pair("|S|", "/safe"), std::pair("|K|", "/invariant")})
+      sizes.expect(label, claims.at(path).cells.front(), count_members(claims.members(path)));
     std::int64_t last = 0;
     for (const std::int32_t time : claims.values("/collision_time")) {
       if (time != kUnbounded) last = std::max(last, std::int64_t{time});

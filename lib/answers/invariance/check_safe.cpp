@@ -2,18 +2,18 @@
 
 #include <algorithm>
 
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-std::vector<RationalInterval> places_of(const ProblemSpec& spec, const GridDimension& dimension,
-                                        std::int64_t k) {
+std::vector<RationalInterval> pieces_of_index(const ProblemSpec& spec, const GridDimension& dimension,
+                                              std::int64_t k) {
   const Rational centre = dimension.point(k);
   if (spec.abstraction.safe == Membership::center) return {{.lower = centre, .upper = centre}};
-  return parts_of(dimension, k);
+  return pieces_of(dimension, k);
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ SafeJudge::SafeJudge(const ProblemSpec& spec, const Program& condition, const Un
       corner_truth_(condition, memory.states()) {
   for (const std::size_t i : memory.states()) {
     auto& indices = pieces_.emplace_back();
-    for (std::int64_t k = 0; k < grid[i].count; ++k) indices.push_back(places_of(spec, grid[i], k));
+    for (std::int64_t k = 0; k < grid[i].count; ++k) indices.push_back(pieces_of_index(spec, grid[i], k));
   }
 }
 
@@ -61,17 +61,17 @@ SafeVerdict SafeJudge::judge(std::int64_t cell, bool claimed) {
 template <class Visit>
 void SafeJudge::for_each_piece(std::int64_t cell, const Visit& visit) const {
   const std::vector<std::size_t>& states = memory_.states();
-  std::vector<const std::vector<RationalInterval>*> places;
+  std::vector<const std::vector<RationalInterval>*> pieces;
   std::vector<std::int64_t> counts;
   for (std::size_t s = 0; s < states.size(); ++s) {
-    places.push_back(&pieces_[s][static_cast<std::size_t>(grid_.index(cell, states[s]))]);
-    counts.push_back(static_cast<std::int64_t>(places.back()->size()));
+    pieces.push_back(&pieces_[s][static_cast<std::size_t>(grid_.index(cell, states[s]))]);
+    counts.push_back(static_cast<std::int64_t>(pieces.back()->size()));
   }
   Box box(slots_);
   Odometer piece(counts);
   do {
     for (std::size_t s = 0; s < states.size(); ++s)
-      box[states[s]] = (*places[s])[static_cast<std::size_t>(piece[s])];
+      box[states[s]] = (*pieces[s])[static_cast<std::size_t>(piece[s])];
     if (!visit(box)) return;
   } while (piece.advance());
 }

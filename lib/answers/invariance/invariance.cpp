@@ -9,13 +9,13 @@
 namespace coordreq {
 Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                            Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
-                           const EqualWork& equal, const CellSet* over) {
+                           const EqualWork& equal, const CellSet* terminal) {
   // The finest classes give the fewest joint groups to try.
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const int workers = team.size();
   const LevelProblem problem{
       .start = &safe,
-      .spared = over,
+      .spared = terminal,
       .equal = equal.by_tables(),
       .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, synthesis, false, workers); },
       .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, synthesis, false, workers); },

@@ -25,10 +25,10 @@ struct Invariance {
 /// for `given` the limit of SPRE_S^i(X), C(x) being all that `allow` permits (paper, Eq. (10) and Lemma 1).
 /// With a goal that ends the task all cells of G belong to every set.
 /// @param equal without `numbers` those of the tables are taken
-/// @param over G, a part of S; null: no goal ends the task
+/// @param terminal G, a part of S; null: no goal ends the task
 [[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                                          Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
-                                         const EqualWork& equal = {}, const CellSet* over = nullptr);
+                                         const EqualWork& equal = {}, const CellSet* terminal = nullptr);
 
 /// Fills in the members that follow from the collision times.
 void follow_from_collision_times(Invariance& invariance, ThreadTeam& team);

@@ -23,7 +23,7 @@ std::optional<ConditionTable> condition_table(const PairCondition& condition, co
   const bool is_false = asks_cells || may_not_know(allow);
   const auto refuse = [&](const std::vector<std::int64_t>& indices) -> bool {
     if (is_false) return false;
-    std::string place;
+    std::string location;
     for (const std::uint32_t slot : allow.variables()) {
       if (slot >= spec.states.size() + spec.inputs.size()) continue;  // a state's cell
       const bool is_state = slot < spec.states.size();
@@ -32,10 +32,10 @@ std::optional<ConditionTable> condition_table(const PairCondition& condition, co
       const std::int64_t k = indices[slot] + (is_leading ? leading->begin : 0);
       const Rational value = is_state ? abstraction.grid[abstraction.grid.dimension_of(i)].point(k)
                                       : abstraction.inputs[i].values[static_cast<std::size_t>(k)];
-      place += fmt::format("{}{} = {}", place.empty() ? "" : ", ",
-                           is_state ? spec.states[i].name : spec.inputs[i].name, to_text(value));
+      location += fmt::format("{}{} = {}", location.empty() ? "" : ", ",
+                              is_state ? spec.states[i].name : spec.inputs[i].name, to_text(value));
     }
-    throw SpecError(fmt::format("{} cannot be decided at {}", condition.words, place), condition.pointer);
+    throw SpecError(fmt::format("{} cannot be decided at {}", condition.label, location), condition.pointer);
   };
   return ConditionTable(allow, abstraction.grid, abstraction.inputs, refuse, team, leading);
 }
@@ -70,9 +70,9 @@ std::vector<LeadingRuns> leading_runs(const Program& condition, const UniformGri
   std::vector<LeadingRuns> groups;
   for (const RowShare::Range run : runs) {
     if (run.begin == run.end) continue;
-    const RowShare::Range own = leading_indices(grid, run);
-    if (groups.empty() || groups.back().leading.end < own.begin) groups.push_back({own, {}});
-    groups.back().leading.end = own.end;
+    const RowShare::Range leading = leading_indices(grid, run);
+    if (groups.empty() || groups.back().leading.end < leading.begin) groups.push_back({leading, {}});
+    groups.back().leading.end = leading.end;
     groups.back().runs.push_back(run);
   }
   return groups;
@@ -82,16 +82,16 @@ std::vector<LeadingRuns> leading_runs(const Program& condition, const UniformGri
 void add_rows(const ConditionTable& table, const UniformGrid& grid, const std::vector<RowShare::Range>& runs,
               ThreadTeam& team, CellSet& cells) {
   const std::size_t last = grid.size() - 1;
-  std::int64_t pieces = 1;
-  for (std::size_t i = grid.across(); i < last; ++i) pieces *= grid[i].count;
-  for_each_row_of(team, runs, std::max<std::int64_t>(1, 1024 / pieces), [&](RowShare::Range range, int) {
+  std::int64_t subrows = 1;
+  for (std::size_t i = grid.across(); i < last; ++i) subrows *= grid[i].count;
+  for_each_row_of(team, runs, std::max<std::int64_t>(1, 1024 / subrows), [&](RowShare::Range range, int) {
     for (std::int64_t r = range.begin; r < range.end; ++r) {
-      for (std::int64_t k = 0; k < pieces; ++k) {
+      for (std::int64_t k = 0; k < subrows; ++k) {
         std::int64_t lane = 0;
         std::int64_t rest = k;
         for (std::size_t i = last; i-- > grid.across(); rest /= grid[i].count)
           lane += rest % grid[i].count * grid.stride(i);
-        add_bits(table.row(r * pieces + k, 0), lane, cells.row(r));
+        add_bits(table.row(r * subrows + k, 0), lane, cells.row(r));
       }
     }
   });
@@ -121,7 +121,7 @@ CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, Thread
   return cells_that_satisfy(spec.safe, spec, abstraction.grid, abstraction.inputs, team);
 }
 
-CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share) {
+CellSet subset_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share) {
   CellSet result(set.rows(), set.row_length());
   for (const RowShare::Range run : held_rows(share, set.rows())) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
@@ -137,7 +137,7 @@ std::optional<PairTable> permitted_pairs(const PairCondition& condition, const P
                                          const RowShare* share) {
   const UniformGrid& grid = abstraction.grid;
   std::optional<RowShare::Range> leading;
-  if (share != nullptr && grid.across() > 0) leading = leading_indices(grid, own_rows(share, grid.rows()));
+  if (share != nullptr && grid.across() > 0) leading = leading_indices(grid, local_rows(share, grid.rows()));
   const auto table = condition_table(condition, spec, abstraction, leading, team);
   return table ? std::optional<PairTable>(std::in_place, *table) : std::nullopt;
 }
@@ -145,7 +145,7 @@ std::optional<PairTable> permitted_pairs(const PairCondition& condition, const P
 PairRules pair_rules(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team,
                      const PackedPairs* listed, const RowShare* share) {
   const UniformGrid& grid = abstraction.grid;
-  const RowShare::Range rows = own_rows(share, grid.rows());
+  const RowShare::Range rows = local_rows(share, grid.rows());
   PairRules rules;
   if (spec.controller.allow) {
     rules.permitted = permitted_pairs({*spec.controller.allow, "'allow'", "/controller/allow"}, spec,

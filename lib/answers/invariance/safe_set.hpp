@@ -15,7 +15,7 @@
 
 namespace coordreq {
 
-/// Adds the cells in some runs of rows that satisfy a condition over states as `abstraction.safe` asks.
+/// Adds the cells in some runs of rows that satisfy a condition over states as `abstraction.safe` requires.
 /// `inner`: cells whose whole closed box provably satisfies it (see ConditionDecider), never one with a point
 /// that does not. The box is widened by the measurement errors, for the true state may be that far outside of
 /// the cell that was measured; on the seam of a periodic dimension both pieces of a cell count; the half of a
@@ -31,14 +31,14 @@ void add_cells_that_satisfy(const Program& condition, const ProblemSpec& spec, c
                                          const RowShare* share = nullptr);
 /// The cells of a set that are in another set (is_in), or are not. @param share then in the rows held; null:
 /// there is one process
-[[nodiscard]] CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share);
+[[nodiscard]] CellSet subset_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share);
 /// S, contract "Safe set".
 [[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team);
 
 /// A condition over pairs of states and joint inputs, with its name and JSON pointer for errors.
 struct PairCondition {
   const Program& program;
-  std::string words;
+  std::string label;
   std::string pointer;
 };
 

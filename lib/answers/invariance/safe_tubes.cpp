@@ -30,7 +30,7 @@ Excess find_excess(const TransitionTable& tube, const GridDimension& dimension, 
   for (const IndexRange entry : tube.entries) {
     if (!tube.shift) add(entry);
     // An entry of a shift serves every index of the state itself.
-    for (std::int64_t own = 0; tube.shift && own < dimension.count; ++own) add(moved(entry, own));
+    for (std::int64_t index = 0; tube.shift && index < dimension.count; ++index) add(moved(entry, index));
   }
   if (ranks == nullptr) return excess;
   return {ranks->greatest(excess.below), ranks->greatest(excess.above)};
@@ -59,8 +59,8 @@ std::optional<TubeLimits> find_tube_limits(const ProblemSpec& spec, const Abstra
     const std::size_t i = abstraction.grid.dimension_of(state);
     GridDimension& dimension = limits.dimensions[i];
     const Excess excess = find_excess(abstraction.tubes[i], dimension, ranks);
-    dimension.stretch_below = dimension.step * Rational(static_cast<long>(excess.below));
-    dimension.stretch_above = dimension.step * Rational(static_cast<long>(excess.above));
+    dimension.extension_below = dimension.step * Rational(static_cast<long>(excess.below));
+    dimension.extension_above = dimension.step * Rational(static_cast<long>(excess.above));
     stretched = stretched || excess.below > 0 || excess.above > 0;
     if (is_lost(excess.below, dimension.count)) limits.unknown.emplace_back(i, 0);
     if (is_lost(excess.above, dimension.count)) limits.unknown.emplace_back(i, dimension.count - 1);
@@ -77,8 +77,8 @@ void add_safe_beyond(const TubeLimits& limits, const ProblemSpec& spec, const Ab
                          beyond);
   for (const RowShare::Range run : runs) {
     for (const auto& [dimension, index] : limits.unknown) remove_cells(beyond, grid, run, dimension, index);
-    // The condition is asked of larger boxes than for S, but evaluation is not monotone: cells outside S are
-    // taken out.
+    // The condition is evaluated on larger boxes than for S, but evaluation is not monotone: cells outside S
+    // are taken out.
     for (std::int64_t row = run.begin; row < run.end; ++row)
       std::ranges::transform(beyond.row(row), safe.row(row), beyond.row(row).begin(), std::bit_and<>());
   }

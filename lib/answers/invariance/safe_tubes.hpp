@@ -28,7 +28,7 @@ struct TubeLimits {
 /// Adds cells of TubeSets::beyond, in some rows. A state that `saturate` resets at the sample is beyond its
 /// limit until then, where resolve() gives the boundary cell. So a boundary cell counts only if `safe` holds
 /// on all of it and as far beyond it as any tube goes that is not blocked. (With `"safe": "center"` only
-/// centres are asked.)
+/// centres count.)
 /// @param safe S, in these rows @param beyond has none of these rows yet
 void add_safe_beyond(const TubeLimits& limits, const ProblemSpec& spec, const Abstraction& abstraction,
                      const CellSet& safe, const std::vector<RowShare::Range>& runs, ThreadTeam& team,

@@ -43,26 +43,27 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   std::optional<PartitionActions> actions;
   const auto projections = [&]() -> const Projections& {
     if (!actions) {
-      work.enter_part("projections");
+      work.enter_substage("projections");
       actions.emplace(answers, p, work.team);
-      work.enter_part("");
+      work.enter_substage("");
     }
     return actions->projections;
   };
   DelayLayers& layers = all[p];
-  find_layers(
-      context, *context.engine, invariant, work, layers, [&](const WaveWatch& watch, WaveCounts& counts) {
-        std::vector<const LevelMap*> coarser;
-        for (const std::size_t q : next_coarser(coordination.partitions, p))
-          coarser.push_back(&all[q].layers_of);
-        return find_layer_levels(*context.engine, *context.hull, invariant, projections(), coarser,
-                                 coordination.max_delay, watch, work.team, counts, context.over_or_null());
-      });
+  find_layers(context, *context.engine, invariant, work, layers,
+              [&](const WaveWatch& watch, WaveCounts& counts) {
+                std::vector<const LevelMap*> coarser;
+                for (const std::size_t q : next_coarser(coordination.partitions, p))
+                  coarser.push_back(&all[q].layers_of);
+                return find_layer_levels(*context.engine, *context.hull, invariant, projections(), coarser,
+                                         coordination.max_delay, watch, work.team, counts,
+                                         context.terminal_or_null());
+              });
   if (!counts_leaving(context, layers)) return;
   layers.leaving.emplace();
-  if (layers.sizes.back() == context.over_cells) return;
+  if (layers.sizes.back() == context.terminal_cells) return;
   const Projections& silent = projections();
-  work.enter_part("safe sides");
+  work.enter_substage("safe sides");
   layers.leaving = count_leaving_cells(
       answers, silent, layers,
       {.step =
@@ -77,15 +78,15 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
 std::int64_t cells_bound_to_connect(const AnalysisContext& context, const DelayLayers& layers) {
   const std::int64_t connection_delay = context.spec.coordination.connection_delay;
   const auto known = static_cast<std::int64_t>(layers.sizes.size());
-  if (connection_delay >= known && layers.truncated) return layers.sizes.front() - context.over_cells;
+  if (connection_delay >= known && layers.truncated) return layers.sizes.front() - context.terminal_cells;
   return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
 }
 
-/// The largest delay times the period, over the cells in which the task goes on; null if a delay is unbounded
+/// The largest delay times the period, over the nonterminal cells; null if a delay is unbounded
 /// or there are no such cells.
 Json longest_delay(const AnalysisContext& context, const DelayLayers& layers) {
-  const std::int64_t fixed_point = layers.truncated ? context.over_cells : layers.sizes.back();
-  if (fixed_point != context.over_cells || layers.sizes.front() == context.over_cells) return {};
+  const std::int64_t fixed_point = layers.truncated ? context.terminal_cells : layers.sizes.back();
+  if (fixed_point != context.terminal_cells || layers.sizes.front() == context.terminal_cells) return {};
   // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
   const std::size_t steps = layers.sizes.size() - (layers.truncated ? 1 : 2);
   return nearest_double(context.spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
@@ -212,7 +213,7 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
       symmetry(
           answers.context.symmetry(input_classes(answers.context.spec, answers.context.abstraction->inputs,
                                                  answers.context.spec.coordination.partitions[p]))),
-      projections(answers.get<GoingOn>().controller, grouping, team,
+      projections(answers.get<NonterminalController>().controller, grouping, team,
                   answers.context.equal(symmetry ? &*symmetry : nullptr)) {}
 
 const Answer layers_answer = {.stages = layers_stages,

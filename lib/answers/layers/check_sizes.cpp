@@ -61,8 +61,8 @@ void check_lists(const PartitionClaims& claims, const StoredLayers& stored, cons
   for (std::size_t k = 0; k < lists.size() && k < stored.start.size(); ++k) {
     comparison.expect(fmt::format("start[{}]", k), stored.start[k], position);
     for (const std::uint64_t cell : lists[k]) {
-      const std::uint64_t found = position < stored.cell.size() ? stored.cell[position] : UINT64_MAX;
-      comparison.expect(fmt::format("cell[{}]", position), found, cell);
+      const std::uint64_t value = position < stored.cell.size() ? stored.cell[position] : UINT64_MAX;
+      comparison.expect(fmt::format("cell[{}]", position), value, cell);
       ++position;
     }
   }
@@ -94,14 +94,14 @@ PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, 
     most = static_cast<std::int32_t>(*spec.coordination.max_delay);
   for (const auto& agents : partition.classes) {
     const std::string name = class_name(spec.agents, agents);
-    const auto* const own = claims.bits(root + "/" + partition.name + "/" + name);
-    if (own != nullptr) actions.push_back(own);
+    const auto* const bits = claims.bits(root + "/" + partition.name + "/" + name);
+    if (bits != nullptr) actions.push_back(bits);
   }
 }
 
 Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const PartitionClaims& partition,
                        std::size_t& longest) {
-  Comparison comparison(partition.kind.words + (" " + partition.partition.name));
+  Comparison comparison(partition.kind.label + (" " + partition.partition.name));
   const std::optional<Layers> layers = layers_of(spec, partition);
   if (!layers) {
     comparison.expect<std::string_view>(

@@ -37,7 +37,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
           std::vector<FieldAttribute>{flags({outside_safe, outside_invariant, {kLargestValue, "unbounded"}})},
       {.column = "delay",
        .compared = "delay",
-       .query = {.words = "delay",
+       .query = {.label = "delay",
                  .meanings = {{"not_safe", "none: the cell is not safe"},
                               {"not_invariant",
                                "none: on this grid no coordination keeps the system safe from here"},
@@ -54,7 +54,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                                                   {"connection_delay", spec.coordination.connection_delay}},
                   {.column = "countdown",
                    .below_zero = kMustBeConnected,
-                   .query = {.words = "connect in", .meanings = countdown_meanings(spec)}}));
+                   .query = {.label = "connect in", .meanings = countdown_meanings(spec)}}));
 }
 
 void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cells, std::uint64_t layers) {

@@ -16,7 +16,7 @@ class DelayPolicy : public CellPolicy {
 /// Agents who coordinate choose from C(x), silent agents from IND_C(x), for as many steps as the delay.
 std::vector<AnswerPolicy> layer_policies(const ProblemSpec& /*spec*/) {
   return {{.kind = &kDelayKind,
-           .words = "actions",
+           .label = "actions",
            .delay = paths::kDelay,
            .trigger = paths::kTrigger,
            .make = [](const PolicyContext& /*context*/) -> std::unique_ptr<CellPolicy> {

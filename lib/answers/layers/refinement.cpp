@@ -9,9 +9,9 @@ namespace coordreq {
 
 bool refines(const PartitionSpec& finer, const PartitionSpec& coarser) {
   // Agents are ascending in a class, and every agent is in one, so a class can be looked for by its first.
-  return std::all_of(finer.classes.begin(), finer.classes.end(), [&](const auto& own) {
+  return std::all_of(finer.classes.begin(), finer.classes.end(), [&](const auto& agents) {
     return std::any_of(coarser.classes.begin(), coarser.classes.end(), [&](const auto& other) {
-      return std::includes(other.begin(), other.end(), own.begin(), own.end());
+      return std::includes(other.begin(), other.end(), agents.begin(), agents.end());
     });
   });
 }

@@ -68,7 +68,7 @@ class NetworkChecker : public CellChecker {
       tally_.add_checked(1);
       if (!cell.is_invariant()) {
         if (claimed) complain(mode, "safe, but not in K");
-      } else if (cell.is_over()) {
+      } else if (cell.is_terminal()) {
         if (!claimed) complain(mode, "not safe, but the task is over");
       } else if (network_.spec.resynthesise) {
         if (claimed && !can_take_care(mode))
@@ -124,7 +124,7 @@ class NetworkChecker : public CellChecker {
   void complain(std::size_t mode, const char* what) {
     const auto modes = static_cast<std::int64_t>(network_.spec.modes.size());
     tally_.add_wrong(cell_->number() * modes + static_cast<std::int64_t>(mode), [&] {
-      return fmt::format("{}, mode {}: {}", cell_->place(), network_.spec.modes[mode].name, what);
+      return fmt::format("{}, mode {}: {}", cell_->location(), network_.spec.modes[mode].name, what);
     });
   }
 

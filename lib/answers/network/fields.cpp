@@ -15,22 +15,23 @@ Fields network_fields(const ProblemSpec& spec) {
   std::vector<std::string> modes;
   for (const NetworkModeSpec& mode : spec.network->modes) modes.push_back(mode.name);
   const std::size_t count = modes.size();
-  return {name_scale("/mode", FieldSection::names, std::move(modes), "mode of the network"),
-          {.path = paths::kNetworkSafe,
-           .kind = FieldKind::set,
-           .section = FieldSection::maps,
-           .types = {ElementType::uint8},
-           .axes = cell_axes("/mode", spec),
-           .most = 1,
-           .attributes = described("from here the agents stay safe if the network is in this mode") +
-                         counted_cells(count) +
-                         std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
-           .display = {.query = {.name = "safe_modes",
-                               .words = "safe in",
-                               .heading = fmt::format("network {}: {}", network_kind_name(spec.network->kind),
-                                                      network_meaning(*spec.network)),
-                               .entry = "mode"},
-                     .map = {.kind = "modes"}}}};
+  return {
+      name_scale("/mode", FieldSection::names, std::move(modes), "mode of the network"),
+      {.path = paths::kNetworkSafe,
+       .kind = FieldKind::set,
+       .section = FieldSection::maps,
+       .types = {ElementType::uint8},
+       .axes = cell_axes("/mode", spec),
+       .most = 1,
+       .attributes = described("from here the agents stay safe if the network is in this mode") +
+                     counted_cells(count) +
+                     std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
+       .display = {.query = {.name = "safe_modes",
+                             .label = "safe in",
+                             .heading = fmt::format("network {}: {}", network_kind_name(spec.network->kind),
+                                                    network_meaning(*spec.network)),
+                             .entry = "mode"},
+                   .map = {.kind = "modes"}}}};
 }
 
 /// Fills in the values of these fields. The arrays refer to the answers, which must outlive the writing.

@@ -24,7 +24,7 @@ std::unique_ptr<RowOperator<Level>> make_agreed(const ActionGrouping& grouping, 
 }  // namespace
 
 ModeChoices::ModeChoices(const NetworkProblem& problem, Agreement agreement, ThreadTeam& team)
-    : going_on_(*problem.controller->invariant), over_(problem.over) {
+    : nonterminal_(*problem.controller->invariant), terminal_(problem.terminal) {
   const Controller& controller = *problem.controller;
   for (std::size_t p = 0; p < problem.partitions.size(); ++p) {
     Partition& partition = partitions_.emplace_back();
@@ -48,10 +48,10 @@ std::vector<std::unique_ptr<RowOperator<Level>>> ModeChoices::operators(int work
       result.push_back(make_agreed<Level>(*partition.grouping, workers));
     } else {
       result.push_back(
-          std::make_unique<IndependentActions<Level>>(*partition.projections, going_on_, workers));
+          std::make_unique<IndependentActions<Level>>(*partition.projections, nonterminal_, workers));
     }
-    if (over_ == nullptr) continue;
-    result.back() = std::make_unique<SparingOperator<Level>>(std::move(result.back()), *over_, workers);
+    if (terminal_ == nullptr) continue;
+    result.back() = std::make_unique<SparingOperator<Level>>(std::move(result.back()), *terminal_, workers);
   }
   return result;
 }

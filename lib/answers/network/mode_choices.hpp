@@ -37,8 +37,8 @@ class ModeChoices {
     const Projections* projections = nullptr;  ///< null: agents agree
   };
 
-  const CellSet& going_on_;  ///< the cells of K whose posts are looked at
-  const CellSet* over_;
+  const CellSet& nonterminal_;  ///< the cells of K whose posts are looked at
+  const CellSet* terminal_;
   std::deque<ActionGrouping> groupings_;
   std::deque<Projections> projections_;
   std::vector<Partition> partitions_;

@@ -29,7 +29,7 @@ PendingRows pending_rows(const NetworkProblem& problem, const CellSet& set, bool
   const RowEngine& engine = *problem.controller->engine;
   std::vector<std::uint8_t> is_alive(static_cast<std::size_t>(engine.rows()), 0);
   std::vector<std::uint8_t> is_pending(is_alive.size(), 0);
-  for_each_own_row(team, engine.share(), engine.rows(), 256, [&](ThreadTeam::Range range, int) {
+  for_each_local_row(team, engine.share(), engine.rows(), 256, [&](ThreadTeam::Range range, int) {
     RowBox box;
     std::vector<std::int64_t> counter;
     RowPlace place(engine.grid(), range.begin);
@@ -90,7 +90,7 @@ class ModeSweep {
     step_ = {.sweep = counts_.sweeps, .visited = count, .rows = pending.alive};
   }
 
-  /// Reports the last sweep. @param state [mode] from which work can be taken up; none: it cannot
+  /// Reports the last sweep. @param state [mode] from which work can be resumed; none: it cannot
   template <class State>
   void report(const std::function<void(const WaveStep&)>& watch, std::span<const State> state) const {
     if (!watch) return;
@@ -127,8 +127,8 @@ class ModeSweep {
     // Beyond the row there are no cells.
     std::fill(worker.old.begin() + static_cast<std::ptrdiff_t>(n), worker.old.end(), Level{0});
     const RowPlace place(engine_.grid(), row);
-    const bool is_found = op.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w);
-    const Level* const both[] = {worker.old.data(), is_found ? worker.next.data() : worker.old.data()};
+    const bool is_computed = op.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w);
+    const Level* const both[] = {worker.old.data(), is_computed ? worker.next.data() : worker.old.data()};
     kernels().minimum(both, 2, worker.next.data(), n);
   }
 

@@ -23,7 +23,7 @@ ModeTargets::ModeTargets(const RowEngine& engine, const std::vector<NetworkMode>
       changed_(modes.size(), std::vector<Word>(static_cast<std::size_t>(engine.rows() + 63) / 64, 0)),
       levels_(engine.make_levels<std::uint8_t>(engine.posts())),
       loaded_(modes.size()) {
-  if (engine.share() != nullptr) untold_ = changed_;
+  if (engine.share() != nullptr) unsent_ = changed_;
   for (std::size_t mode = 0; mode < modes.size(); ++mode) {
     CellSet& set = sets_.emplace_back(start.rows(), start.row_length());
     for (const RowShare::Range run : held_rows(engine.share(), start.rows())) {
@@ -69,7 +69,7 @@ void ModeTargets::settle(std::size_t mode) {
 
 void ModeTargets::shrink(std::size_t mode, std::int64_t row, ConstRow cells) {
   replace(mode, row, cells);
-  if (!untold_.empty()) untold_[mode][static_cast<std::size_t>(row / 64)] |= Word{1} << (row % 64);
+  if (!unsent_.empty()) unsent_[mode][static_cast<std::size_t>(row / 64)] |= Word{1} << (row % 64);
 }
 
 bool ModeTargets::exchange() {
@@ -77,19 +77,19 @@ bool ModeTargets::exchange() {
   std::int64_t rows = 0;
   std::vector<Word> cells(engine_.row_words());
   for (std::size_t mode = 0; mode < modes(); ++mode) {
-    std::vector<Word>& untold = untold_[mode];
-    for (const Word word : untold) rows += std::popcount(word);
+    std::vector<Word>& unsent = unsent_[mode];
+    for (const Word word : unsent) rows += std::popcount(word);
     exchange_row_bytes(
         *engine_.share(), cells.size() * sizeof(Word),
         [&](std::int64_t row) {
-          return (untold[static_cast<std::size_t>(row / 64)] >> (row % 64) & 1U) != 0;
+          return (unsent[static_cast<std::size_t>(row / 64)] >> (row % 64) & 1U) != 0;
         },
         [&](std::int64_t row) { return std::as_bytes(set(mode).row(row)); },
         [&](std::int64_t row, std::span<const std::byte> bytes) {
           std::memcpy(cells.data(), bytes.data(), bytes.size());
           replace(mode, row, cells);
         });
-    std::fill(untold.begin(), untold.end(), 0);
+    std::fill(unsent.begin(), unsent.end(), 0);
   }
   return engine_.share()->ranks().sum(rows) > 0;
 }

@@ -58,7 +58,7 @@ class ModeTargets {
   std::vector<State> state_;
   std::vector<std::vector<Word>> changed_;  ///< [mode] one bit for each row of its target
   std::vector<std::vector<Word>>
-      untold_;  ///< [mode] one bit for each row of W(mode) that was not sent to other processes
+      unsent_;  ///< [mode] one bit for each row of W(mode) that was not sent to other processes
   LevelRows<std::uint8_t> levels_;
   std::size_t loaded_;
 };

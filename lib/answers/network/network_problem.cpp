@@ -47,9 +47,10 @@ NetworkProblem network_problem(const ProblemSpec& spec, const Controller& contro
 NetworkProblem network_problem(const Answers& answers) {
   REQUIRES(answers.context.spec.network.has_value());
   const AnalysisContext& context = answers.context;
-  NetworkProblem problem = network_problem(context.spec, answers.get<GoingOn>().controller, *context.hull);
+  NetworkProblem problem =
+      network_problem(context.spec, answers.get<NonterminalController>().controller, *context.hull);
   problem.invariant = &answers.get<Invariance>().invariant;
-  problem.over = context.over_or_null();
+  problem.terminal = context.terminal_or_null();
   return problem;
 }
 

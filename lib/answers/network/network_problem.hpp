@@ -22,7 +22,7 @@ struct NetworkMode {
 struct NetworkProblem {
   const Controller* controller = nullptr;  ///< C in K, without the cells of a goal that ends the task
   const CellSet* invariant = nullptr;      ///< K
-  const CellSet* over =
+  const CellSet* terminal =
       nullptr;  ///< G of a goal that ends the task, which is in every W(q); null: there is none
   const RowHull* hull = nullptr;
   std::vector<std::vector<InputClass>> partitions;  ///< the different partitions: the classes of each

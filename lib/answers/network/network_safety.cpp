@@ -62,13 +62,13 @@ class SafetyIteration {
   /// Iterates in the order of successors_first(). @pre unchecked: the operators are monotone
   void run_in_any_order() {
     const std::vector<std::size_t> order = successors_first(problem_.modes);
-    for (bool changed = true; changed || hears_of_others();) {
+    for (bool changed = true; changed || receives_changes();) {
       changed = false;
       for (const std::size_t mode : order) {
         while (targets_.has_changed(mode)) {
           sweep(mode);
           commit();
-          tell(engine_.share() == nullptr);
+          report(engine_.share() == nullptr);
           changed = true;
         }
       }
@@ -82,11 +82,11 @@ class SafetyIteration {
       for (std::size_t mode = 0; mode < problem_.modes.size(); ++mode) {
         if (!targets_.has_changed(mode)) continue;
         sweep(mode);
-        tell(false);
+        report(false);
         changed = true;
       }
       commit();
-      tell(true);
+      report(true);
       if (engine_.share() != nullptr) changed = targets_.exchange();
     }
   }
@@ -125,14 +125,14 @@ class SafetyIteration {
     }
   }
 
-  bool hears_of_others() {
+  bool receives_changes() {
     if (engine_.share() == nullptr) return false;
-    tell(true);
+    report(true);
     return targets_.exchange();
   }
 
-  /// @param whole whether work can be taken up from the sets, as those of all processes belong together
-  void tell(bool whole) const {
+  /// @param whole whether work can be resumed from the sets, as those of all processes belong together
+  void report(bool whole) const {
     sweep_.report(watch_.step, std::span<const CellSet>(targets_.sets()).first(whole ? targets_.modes() : 0));
   }
 

@@ -14,7 +14,7 @@ RuleModes::RuleModes(const Answers& answers, ThreadTeam& team) {
     projections_.push_back(nullptr);
     if (partition->classes.size() < 2) continue;
     actions_.emplace_back(answers, AgentRules{spec.silence->actions, "actions"}, partition->classes,
-                          *answers.get<GoingOn>().controller.invariant, team);
+                          *answers.get<NonterminalController>().controller.invariant, team);
     projections_.back() = &actions_.back().projections;
   }
 }

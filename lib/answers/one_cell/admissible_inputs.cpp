@@ -110,12 +110,12 @@ void AdmissibleInputs::find_moves(Component& component) {
   std::map<Move, std::vector<std::int64_t>> groups;
   Odometer choice(counts);
   do {
-    std::int64_t part = 0;
+    std::int64_t number = 0;
     for (std::size_t j = 0; j < component.inputs.size(); ++j) {
-      part += choice.indices()[j] * posts_->inputs().stride(component.inputs[j]);
+      number += choice.indices()[j] * posts_->inputs().stride(component.inputs[j]);
     }
-    if (component.has_allow && !allow_->holds(part)) continue;
-    if (std::optional<Move> next = move(component, part)) groups[std::move(*next)].push_back(part);
+    if (component.has_allow && !allow_->holds(number)) continue;
+    if (std::optional<Move> next = move(component, number)) groups[std::move(*next)].push_back(number);
   } while (choice.advance());
   component.groups.assign(groups.begin(), groups.end());
 }
@@ -142,11 +142,11 @@ const std::vector<std::int64_t>& AdmissibleInputs::of(std::int64_t x) {
 }
 
 /// Calls cover() of a set for a box around all products of one move for each component.
-void AdmissibleInputs::cover(Box Move::*part, CellMembers& set) const {
+void AdmissibleInputs::cover(Box Move::*member, CellMembers& set) const {
   Box hull(posts_->grid().size(), IndexRange{1, 0});
   for (const Component& component : components_) {
     for (const auto& [next, inputs] : component.groups) {
-      const Box& box = next.*part;
+      const Box& box = next.*member;
       for (std::size_t j = 0; j < box.size(); ++j) {
         if (is_empty(box[j])) continue;
         IndexRange& range = hull[component.states[j]];
@@ -155,7 +155,7 @@ void AdmissibleInputs::cover(Box Move::*part, CellMembers& set) const {
       }
     }
   }
-  // If one state has left under all inputs, no box is asked about.
+  // If one state has left under all inputs, no box is queried.
   if (std::none_of(hull.begin(), hull.end(), is_empty)) set.cover(hull);
 }
 
@@ -203,11 +203,11 @@ bool AdmissibleInputs::is_safe(const std::vector<std::int64_t>& choice) const {
 }
 
 /// Whether the box of posts, or of tubes, is in the set.
-bool AdmissibleInputs::stays_in(const std::vector<std::int64_t>& choice, Box Move::*part,
+bool AdmissibleInputs::stays_in(const std::vector<std::int64_t>& choice, Box Move::*member,
                                 const CellMembers& set) const {
   Box box(posts_->grid().size());
   for (std::size_t c = 0; c < components_.size(); ++c) {
-    const Box& chosen = components_[c].groups[at(choice[c])].first.*part;
+    const Box& chosen = components_[c].groups[at(choice[c])].first.*member;
     for (std::size_t j = 0; j < chosen.size(); ++j) {
       if (is_empty(chosen[j])) return true;  // the post has left safely
       box[components_[c].states[j]] = chosen[j];
@@ -221,8 +221,8 @@ void AdmissibleInputs::collect(const std::vector<std::int64_t>& choice) {
   std::vector<std::int64_t> sums = {0};
   for (std::size_t c = 0; c < components_.size(); ++c) {
     std::vector<std::int64_t> longer;
-    for (const std::int64_t part : components_[c].groups[at(choice[c])].second) {
-      for (const std::int64_t sum : sums) longer.push_back(sum + part);
+    for (const std::int64_t number : components_[c].groups[at(choice[c])].second) {
+      for (const std::int64_t sum : sums) longer.push_back(sum + number);
     }
     sums = std::move(longer);
   }

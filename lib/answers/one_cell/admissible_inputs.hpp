@@ -13,7 +13,7 @@
 
 namespace coordreq {
 
-/// The controller C at single cells, computed when asked for: the analysis never stores C, and a run or a
+/// The controller C at single cells, computed on request: the analysis never stores C, and a run or a
 /// question visits few cells. Straight from the definitions (contract, "Controller").
 ///
 /// States and inputs fall into components that do not depend on one another (as the directions of a robot).
@@ -63,10 +63,10 @@ class AdmissibleInputs {
   void find_components();
   void find_moves(Component& component);
   [[nodiscard]] std::optional<Move> move(const Component& component, std::int64_t u) const;
-  void cover(Box Move::*part, CellMembers& set) const;
+  void cover(Box Move::*member, CellMembers& set) const;
   void prepare_sets();
   [[nodiscard]] bool is_safe(const std::vector<std::int64_t>& choice) const;
-  [[nodiscard]] bool stays_in(const std::vector<std::int64_t>& choice, Box Move::*part,
+  [[nodiscard]] bool stays_in(const std::vector<std::int64_t>& choice, Box Move::*member,
                               const CellMembers& set) const;
   void collect(const std::vector<std::int64_t>& choice);
   void sort();

@@ -23,7 +23,7 @@ bool for_each_cell(const UniformGrid& grid, std::span<const IndexRange> box, con
   return true;
 }
 
-/// A set of cells that is asked whether boxes lie in it. Ranges as ResolvedRange::inside has them: an index
+/// A set of cells that says whether boxes lie in it. Ranges as ResolvedRange::inside has them: an index
 /// beyond the last one of a periodic dimension wraps.
 class CellMembers {
  public:

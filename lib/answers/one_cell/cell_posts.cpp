@@ -72,7 +72,7 @@ bool CellPosts::has_tubes() const {
 void CellPosts::move_to(std::int64_t cell) {
   if (cell == cell_) return;
   if (whole_ == nullptr && source_->entries_built >= source_->most_entries) prepare_all();
-  if (whole_ == nullptr) build_parts(cell);
+  if (whole_ == nullptr) build_by_state(cell);
   cell_ = cell;
 }
 
@@ -81,7 +81,7 @@ void CellPosts::move_to(std::int64_t cell) {
 /// do discrete states whose values are put in one by one: whether the system is affine is decided over all of
 /// them, and must be decided as in the analysis. A state that stops stays whole, because its limits are the
 /// first and the last point of its dimension.
-Abstraction CellPosts::part_of(std::size_t state, std::int64_t cell) const {
+Abstraction CellPosts::abstraction_of(std::size_t state, std::int64_t cell) const {
   std::vector<GridDimension> dimensions = grid_->dimensions();
   for (std::size_t j = 0; j < dimensions.size(); ++j) {
     const bool stops = traits(dimensions[j].below).stops || traits(dimensions[j].above).stops;
@@ -89,53 +89,54 @@ Abstraction CellPosts::part_of(std::size_t state, std::int64_t cell) const {
     dimensions[j].first = dimensions[j].point(grid_->index(cell, j));
     dimensions[j].count = 1;
   }
-  Abstraction part{.grid = UniformGrid(std::move(dimensions)), .inputs = *inputs_};
-  part.tables.resize(part.grid.size());
-  if (has_tubes()) part.tubes.resize(part.grid.size());
-  return part;
+  Abstraction abstraction{.grid = UniformGrid(std::move(dimensions)), .inputs = *inputs_};
+  abstraction.tables.resize(abstraction.grid.size());
+  if (has_tubes()) abstraction.tubes.resize(abstraction.grid.size());
+  return abstraction;
 }
 
-void CellPosts::build_parts(std::int64_t cell) {
+void CellPosts::build_by_state(std::int64_t cell) {
   const SystemSpec& spec = source_->spec;
-  source_->parts.clear();
-  source_->place.clear();
+  source_->by_state.clear();
+  source_->position.clear();
   for (std::size_t i = 0; i < grid_->size(); ++i) {
-    Abstraction& part = source_->parts.emplace_back(part_of(i, cell));
+    Abstraction& abstraction = source_->by_state.emplace_back(abstraction_of(i, cell));
     const bool jumps = spec.dynamics.update(i) != nullptr;
-    if (jumps) build_update_table(spec, part, i, source_->team);
+    if (jumps) build_update_table(spec, abstraction, i, source_->team);
     const bool is_affine =
-        jumps || build_affine_table(spec, source_->dynamics, part, i, source_->team).has_value();
-    const std::int64_t own = grid_->index(cell, i);
-    if (!is_affine) build_enclosure_tables(spec, source_->dynamics, part, {i}, source_->team, own);
-    auto entries = static_cast<double>(part.tables[i].entries.size());
-    if (!is_affine && part.tables[i].state_stride[i] != 0) entries /= static_cast<double>((*grid_)[i].count);
-    include_measurements_of_saturated(spec, part, i);
-    std::int64_t place = 0;
-    for (std::size_t j = 0; j < part.grid.size(); ++j) {
-      if (part.grid[j].count > 1) place += grid_->index(cell, j) * part.grid.stride(j);
+        jumps || build_affine_table(spec, source_->dynamics, abstraction, i, source_->team).has_value();
+    const std::int64_t index = grid_->index(cell, i);
+    if (!is_affine) build_enclosure_tables(spec, source_->dynamics, abstraction, {i}, source_->team, index);
+    auto entries = static_cast<double>(abstraction.tables[i].entries.size());
+    if (!is_affine && abstraction.tables[i].state_stride[i] != 0)
+      entries /= static_cast<double>((*grid_)[i].count);
+    include_measurements_of_saturated(spec, abstraction, i);
+    std::int64_t position = 0;
+    for (std::size_t j = 0; j < abstraction.grid.size(); ++j) {
+      if (abstraction.grid[j].count > 1) position += grid_->index(cell, j) * abstraction.grid.stride(j);
     }
-    source_->place.push_back(place);
+    source_->position.push_back(position);
     source_->entries_built += entries;
   }
 }
 
 ResolvedRange CellPosts::resolved(std::size_t i, std::int64_t u) const {
-  return whole_ ? whole_->resolved(i, cell_, u) : source_->parts[i].resolved(i, source_->place[i], u);
+  return whole_ ? whole_->resolved(i, cell_, u) : source_->by_state[i].resolved(i, source_->position[i], u);
 }
 
 ResolvedRange CellPosts::resolved_tube(std::size_t i, std::int64_t u) const {
   REQUIRES(has_tubes());
   return whole_ ? whole_->resolved_tube(i, cell_, u)
-                : source_->parts[i].resolved_tube(i, source_->place[i], u);
+                : source_->by_state[i].resolved_tube(i, source_->position[i], u);
 }
 
 IndexRange CellPosts::raw_tube(std::size_t i, std::int64_t u) const {
   REQUIRES(has_tubes());
-  return whole_ ? whole_->raw_tube(i, cell_, u) : source_->parts[i].raw_tube(i, source_->place[i], u);
+  return whole_ ? whole_->raw_tube(i, cell_, u) : source_->by_state[i].raw_tube(i, source_->position[i], u);
 }
 
 IndexRange CellPosts::raw(std::size_t i, std::int64_t u) const {
-  return whole_ ? whole_->raw(i, cell_, u) : source_->parts[i].raw(i, source_->place[i], u);
+  return whole_ ? whole_->raw(i, cell_, u) : source_->by_state[i].raw(i, source_->position[i], u);
 }
 
 CellPost CellPosts::post(std::int64_t u, const TubeSets& tubes) const {

@@ -34,7 +34,7 @@ struct CellPost {
 };
 
 /// The posts of one cell after another: from a finite abstraction, or computed from a spec, at first for the
-/// cells asked for alone. When this has cost as much as the whole abstraction would, the whole is computed.
+/// requested cells alone. When this has cost as much as the whole abstraction would, the whole is computed.
 /// (Whole rows are read by PostReader.)
 ///
 /// Not thread-safe.
@@ -59,7 +59,7 @@ class CellPosts {
   [[nodiscard]] const InputSpace& inputs() const { return *inputs_; }
   /// The inputs that the next value of state `i` can depend on, ascending.
   [[nodiscard]] const std::vector<std::int32_t>& inputs_of(std::size_t i) const;
-  /// Whether there are tubes, as safety is asked for between the samples.
+  /// Whether there are tubes, as safety is required between the samples.
   [[nodiscard]] bool has_tubes() const;
 
   /// Goes to a cell. @throws SpecError as build_abstraction()
@@ -86,14 +86,14 @@ class CellPosts {
     double most_entries;  ///< entries to compute one by one before the whole is computed
     /// [state] The abstraction of a grid that has only this cell's index where the state's table does not
     /// need more; only its tables of that state are filled.
-    std::vector<Abstraction> parts;
-    std::vector<std::int64_t> place;  ///< [state] the cell's linear index in the grid of its part
-    double entries_built = 0;         ///< so far
+    std::vector<Abstraction> by_state;
+    std::vector<std::int64_t> position;  ///< [state] the cell's linear index in the grid of its abstraction
+    double entries_built = 0;            ///< so far
     std::optional<Abstraction> whole;
   };
 
-  void build_parts(std::int64_t cell);
-  [[nodiscard]] Abstraction part_of(std::size_t state, std::int64_t cell) const;
+  void build_by_state(std::int64_t cell);
+  [[nodiscard]] Abstraction abstraction_of(std::size_t state, std::int64_t cell) const;
 
   void follow_tube(std::int64_t u, const TubeSets& tubes, CellPost& post) const;
 

@@ -31,7 +31,7 @@ struct ExplainContext {
 /// empty.
 struct Explained {
   std::string key;
-  std::shared_ptr<Json> found;
+  std::shared_ptr<Json> json;
   std::vector<std::string> sentences = {};
 };
 

@@ -25,7 +25,7 @@ class ByteTables {
   [[nodiscard]] virtual std::int64_t length(const std::string& scale) const = 0;
   /// The bytes along the last axis of a field, at an index along all other axes.
   [[nodiscard]] virtual std::vector<std::uint8_t> bytes(const std::string& path,
-                                                        const std::vector<std::int64_t>& place) const = 0;
+                                                        const std::vector<std::int64_t>& indices) const = 0;
 };
 
 /// The data of policies: from a results file, or from arrays in memory.
@@ -75,7 +75,7 @@ struct AnswerPolicy {
   /// everywhere.
   std::string name = {};
   const CountdownKind* kind = nullptr;  ///< whose layers say for how many steps it holds
-  std::string words = {};               ///< "actions", "approach": before " of CLASS"
+  std::string label = {};               ///< "actions", "approach": before " of CLASS"
   std::string gain = {};  ///< what silent agents gain by it: "loses no time"; of policies with a name
   /// Of policies that answer how long silence is safe, other than that of the delays: after "3 steps of
   /// silence" in the sentence that says so. The last of them in the plan is what the spec asks for first.
@@ -89,7 +89,7 @@ struct AnswerPolicy {
   /// good the steps are 0, too, unless the side is only `safe`.
   struct Aim {
     std::string path;   ///< of a field over cells alone; empty: the policy has no aim
-    std::string words;  ///< for the steps
+    std::string label;  ///< for the steps
     bool lasts =
         false;  ///< the policy is followed indefinitely: in the aim it says more than that of the delays
   };
@@ -100,7 +100,7 @@ struct AnswerPolicy {
   bool is_anywhere = false;  ///< the policy is about all cells of S
   bool is_by_agent = false;  ///< the policy is of agents, each by itself, in every partition
   std::unique_ptr<CellPolicy> (*make)(const PolicyContext& context) = nullptr;
-  /// What agents go by when the silence does not end within the steps asked for; null: they coordinate.
+  /// What agents go by when the silence does not end within the requested steps; null: they coordinate.
   std::unique_ptr<CellPolicy> (*make_then)(const PolicyContext& context) = nullptr;
   /// The paths of what it reads from ByteTables in a partition; null: nothing.
   std::vector<std::string> (*tables)(const ProblemSpec& spec, const PartitionSpec& partition) = nullptr;

@@ -21,8 +21,8 @@ std::int32_t ProgressInputs::worst_in(const std::vector<IndexRange>& box) {
   const auto [entry, is_new] = known_.try_emplace(box, 0);
   if (is_new) {
     for_each_cell(posts_.grid(), box, [&worst = entry->second, this](std::int64_t y) {
-      const std::int32_t own = arrival_(y);
-      worst = std::max(worst, own < 0 ? INT32_MAX : own);
+      const std::int32_t value = arrival_(y);
+      worst = std::max(worst, value < 0 ? INT32_MAX : value);
       return worst < INT32_MAX;
     });
   }

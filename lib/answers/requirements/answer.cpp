@@ -15,19 +15,19 @@
 namespace coordreq {
 namespace {
 
-const char* end_word(PathEnd end) {
-  constexpr std::array<const char*, 11> kWords{
+const char* end_label(PathEnd end) {
+  constexpr std::array<const char*, 11> kLabels{
       "outside_safe_set",  "left_domain",     "unsafe_between_samples",
       "no_allowed_action", "arrived",         "never_arrives",
       "time_lost",         "not_allowed",     "too_risky",
       "no_common_action",  "no_silent_action"};
-  return kWords[static_cast<std::size_t>(end)];
+  return kLabels[static_cast<std::size_t>(end)];
 }
 
-const char* phase_word(PathPhase phase) {
-  constexpr std::array<const char*, 6> kWords{"independent", "evasive", "together",
-                                              "approaching", "silent",  "afterwards"};
-  return kWords[static_cast<std::size_t>(phase)];
+const char* phase_label(PathPhase phase) {
+  constexpr std::array<const char*, 6> kLabels{"independent", "evasive", "together",
+                                               "approaching", "silent",  "afterwards"};
+  return kLabels[static_cast<std::size_t>(phase)];
 }
 
 /// Adds a risk, and the bits of the float32.
@@ -44,7 +44,7 @@ void put_value(Json& json, const std::string& key, RequirementKind kind, std::in
   json[key] = delay_json(value);
   json[key + "_status"] = is_never    ? "goal_cannot_be_forced"
                           : is_no_end ? "not_in_silence_set"
-                                      : delay_word(value);
+                                      : delay_label(value);
 }
 
 Json side_json(const std::optional<ResultSide>& side, const ProblemSpec& spec) {
@@ -71,7 +71,7 @@ Json sample_json(const ResultPath& path, std::size_t sample, RequirementKind kin
 
 Json step_json(const ResultPath& path, std::size_t step, RequirementKind kind, const ProblemSpec& spec) {
   Json json = sample_json(path, step, kind, spec);
-  json["action"] = phase_word(path.phase[step]);
+  json["action"] = phase_label(path.phase[step]);
   json["inputs"] = Json::object();
   for (const AgentSpec& agent : spec.agents) {
     Json& entry = json["inputs"][agent.name] = Json::object();
@@ -183,7 +183,7 @@ MemoryNeed requirements_memory(const EngineSizes& sizes, int /*threads*/) {
 
 }  // namespace
 
-const char* delay_word(std::int32_t delay) {
+const char* delay_label(std::int32_t delay) {
   if (delay == kUnbounded) return "unbounded";
   return delay == kOutsideWinning     ? "goal_cannot_be_forced"
          : delay == kOutsideSafe      ? "not_safe"
@@ -196,7 +196,7 @@ Json path_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& 
   json["state"] = state_json(path, 0, spec);
   json["steps"] = Json::array();
   for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, kind, spec));
-  json["end"] = end_word(path.end);
+  json["end"] = end_label(path.end);
   const bool stays = path.samples() > path.steps();
   json["end_sample"] = stays ? sample_json(path, path.steps(), kind, spec) : Json();
   json["left_side"] = side_json(path.left_side, spec);
@@ -210,32 +210,33 @@ Json delay_json(std::int32_t delay) {
   return delay < 0 || delay == kUnbounded ? Json() : Json(delay);
 }
 
-Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
+Json requirement_json(const ResultRequirement& result, const RequirementSpec& requirement,
                       const ProblemSpec& spec) {
   Json json;
   json["name"] = result.name;
   json["holds"] = result.holds;
-  json["kind"] = traits(asked.kind).key;
+  json["kind"] = traits(requirement.kind).key;
   json["partition"] =
-      asked.partition ? Json(spec.coordination.partitions[static_cast<std::size_t>(*asked.partition)].name)
-                      : Json();
+      requirement.partition
+          ? Json(spec.coordination.partitions[static_cast<std::size_t>(*requirement.partition)].name)
+          : Json();
   json["min_delay"] = Json();
-  const bool is_risk = traits(asked.kind).is_probability;
+  const bool is_risk = traits(requirement.kind).is_probability;
   if (is_risk) {
-    json[traits(asked.kind).key] = nearest_double(asked.risk);
-    json["per"] = asked.per.empty() ? Json() : Json(asked.per);
-  } else if (asked.kind != RequirementKind::invariant) {
-    json[traits(asked.kind).key] = asked.steps;
+    json[traits(requirement.kind).key] = nearest_double(requirement.risk);
+    json["per"] = requirement.per.empty() ? Json() : Json(requirement.per);
+  } else if (requirement.kind != RequirementKind::invariant) {
+    json[traits(requirement.kind).key] = requirement.steps;
   }
   json["cells"] = result.cells;
   json["failing"] = result.failing;
   if (is_risk) {
-    put_risk(json, traits(asked.kind).worst(), result.risk);
+    put_risk(json, traits(requirement.kind).worst(), result.risk);
   } else {
-    put_value(json, traits(asked.kind).worst(), asked.kind, result.least_delay);
+    put_value(json, traits(requirement.kind).worst(), requirement.kind, result.least_delay);
   }
   json["reaches_outside"] = side_json(result.reached_side, spec);
-  json["counterexample"] = result.holds ? Json() : counterexample_json(result, asked.kind, spec);
+  json["counterexample"] = result.holds ? Json() : counterexample_json(result, requirement.kind, spec);
   return json;
 }
 

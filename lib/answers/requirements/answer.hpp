@@ -15,14 +15,14 @@ struct RequirementVerdicts {
 };
 
 /// One requirement for the summary, with its counterexample.
-[[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
+[[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& requirement,
                                     const ProblemSpec& spec);
 /// The counterexample of a requirement of this kind, step by step.
 [[nodiscard]] Json path_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec);
 /// A delay as in `/delay`: the number of steps, else null.
 [[nodiscard]] Json delay_json(std::int32_t delay);
 /// "steps", "unbounded", "not_invariant", "not_safe" or "goal_cannot_be_forced".
-[[nodiscard]] const char* delay_word(std::int32_t delay);
+[[nodiscard]] const char* delay_label(std::int32_t delay);
 
 extern const Answer requirements_answer;
 

@@ -54,15 +54,15 @@ class RequirementChecker {
   RequirementChecker(const CheckContext& context, std::size_t number, const ResultRequirement& claim,
                      ThreadTeam& team)
       : context_(context),
-        asked_(context.spec->requirements[number]),
+        requirement_(context.spec->requirements[number]),
         claim_(claim),
-        value_of_(*context.claims, *context.spec, asked_),
+        value_of_(*context.claims, *context.spec, requirement_),
         collision_time_(context.claims->values("/collision_time")),
-        region_(*context.spec, asked_.where, *context.grid, context.claims->same_version, team),
-        tally_("requirement " + asked_.name) {
-    if (asked_.kind != RequirementKind::max_risk) return;
+        region_(*context.spec, requirement_.where, *context.grid, context.claims->same_version, team),
+        tally_("requirement " + requirement_.name) {
+    if (requirement_.kind != RequirementKind::max_risk) return;
     const Rational rate = exact(context.claims->number("/risk", "rate"));
-    most_risk_ = asked_.risk - rate * static_cast<long>(asked_.steps);
+    most_risk_ = requirement_.risk - rate * static_cast<long>(requirement_.steps);
   }
 
   Finding run(ThreadTeam& team) {
@@ -85,9 +85,9 @@ class RequirementChecker {
   }
 
   [[nodiscard]] bool fails(std::int32_t value) const {
-    if (asked_.kind == RequirementKind::max_risk) return is_too_risky(value);
-    return value < 0 ||
-           (asked_.kind == RequirementKind::max_arrival ? value > asked_.steps : value < asked_.steps);
+    if (requirement_.kind == RequirementKind::max_risk) return is_too_risky(value);
+    return value < 0 || (requirement_.kind == RequirementKind::max_arrival ? value > requirement_.steps
+                                                                           : value < requirement_.steps);
   }
   /// Whether the risk with these bits, and the part of the rate for the steps, is above the limit.
   [[nodiscard]] bool is_too_risky(std::int32_t bits) const {
@@ -99,10 +99,10 @@ class RequirementChecker {
     Bounds all;
     std::mutex mutex;
     team.for_each(context_.grid->cells(), 4096, [&](ThreadTeam::Range range, int) {
-      Bounds part;
-      for (std::int64_t x = range.begin; x < range.end; ++x) add(x, part);
+      Bounds partial;
+      for (std::int64_t x = range.begin; x < range.end; ++x) add(x, partial);
       const std::lock_guard lock(mutex);
-      all.add(part);
+      all.add(partial);
     });
     return all;
   }
@@ -112,7 +112,7 @@ class RequirementChecker {
     if (meeting == Meeting::off) return;
     const auto x = static_cast<std::size_t>(cell);
     const std::int32_t value = value_of_(x);
-    const std::int64_t rank = rank_by_definition(asked_.kind, value);
+    const std::int64_t rank = rank_by_definition(requirement_.kind, value);
     const bool failing = fails(value);
     if (failing && meeting != Meeting::counted) ++bounds.doubted_failing;
     if (meeting == Meeting::doubted) return;
@@ -131,14 +131,14 @@ class RequirementChecker {
     expect("cells", claim_.cells, bounds.sure, bounds.possible);
     expect("failing cells", claim_.failing, bounds.sure_failing, bounds.possible_failing);
     if (claim_.failing > claim_.cells) wrong("more cells fail than there are");
-    expect("worst value, ranked", rank_by_definition(asked_.kind, claim_.least_delay), bounds.possible_least,
-           bounds.sure_least);
+    expect("worst value, ranked", rank_by_definition(requirement_.kind, claim_.least_delay),
+           bounds.possible_least, bounds.sure_least);
   }
 
   template <class Number>
-  void expect(const char* what, Number found, Number least, Number most) {
-    if (found >= least && found <= most) return;
-    wrong(fmt::format("{}: {}, expected {}", what, found,
+  void expect(const char* what, Number value, Number least, Number most) {
+    if (value >= least && value <= most) return;
+    wrong(fmt::format("{}: {}, expected {}", what, value,
                       least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most)));
   }
 
@@ -152,8 +152,9 @@ class RequirementChecker {
       for (const bool above : {false, true}) {
         const ResultSide side{.state = i, .above = above};
         const bool claimed = claim_.reached_side == side;
-        const Reach reach =
-            is_unsafe(side) ? reach_beyond(*context_.spec, asked_.where, *context_.grid, side) : Reach::never;
+        const Reach reach = is_unsafe(side)
+                                ? reach_beyond(*context_.spec, requirement_.where, *context_.grid, side)
+                                : Reach::never;
         if (claimed && reach == Reach::never) wrong("the region does not reach beyond the side named");
         if (claimed) return;
         if (reach == Reach::reached) wrong("the region reaches beyond a side that is not named");
@@ -169,18 +170,19 @@ class RequirementChecker {
     if (region_.of(cell) < Meeting::perhaps) wrong("the counterexample begins outside the region");
     if (!fails(value)) wrong("the counterexample begins in a cell that does not fail");
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
-    if (DefinedRank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
+    if (DefinedRank(rank_by_definition(requirement_.kind, value), collision_time_[first], cell) >
+        bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
     check_seen(path, value);
-    PathChecker(context_, asked_).check(path, tally_);
+    PathChecker(context_, requirement_).check(path, tally_);
   }
 
   /// The step at which the system itself leaves is an observation, but cannot be before the proven one.
   void check_seen(const ResultPath& path, std::int32_t value) {
-    if ((is_followed(asked_.kind) && path.steps() > 0) != (path.seen != ResultPath::kNotFollowed))
+    if ((is_followed(requirement_.kind) && path.steps() > 0) != (path.seen != ResultPath::kNotFollowed))
       return wrong("a nominal simulation where none is made, or none where one is");
     if (path.seen <= 0) return;
-    const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
+    const bool is_after = value < 0 && requirement_.kind == RequirementKind::min_silence && has_then();
     const std::int64_t left = collision_time_[path.cell.front()];  // the claim may be any number
     const std::int64_t proven = value >= 0 ? value : is_after ? 0 : left - 1;
     if (path.seen <= proven) wrong("the nominal simulation leaves sooner than proven");
@@ -190,7 +192,7 @@ class RequirementChecker {
   [[nodiscard]] bool has_then() const { return context_.spec->silence && context_.spec->silence->has_then(); }
 
   const CheckContext& context_;
-  const RequirementSpec& asked_;
+  const RequirementSpec& requirement_;
   const ResultRequirement& claim_;
   ClaimedValues value_of_;
   const std::vector<std::int32_t>& collision_time_;

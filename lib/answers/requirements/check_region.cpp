@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 #include "answers/checking/corner_truth.hpp"
 #include "base/requires.hpp"
 #include "expression/condition.hpp"
@@ -34,12 +34,12 @@ class BoxJudge {
   [[nodiscard]] Meeting judge(const Box& box) {
     std::vector<Interval> rough;
     for (const RationalInterval& range : box) rough.push_back(enclose(range));
-    const Truth told = decider_.decide(std::span<const Interval>(rough),
-                                       [&] { return std::span<const RationalInterval>(box); });
-    if (told == Truth::yes) return Meeting::counted;
+    const Truth truth = decider_.decide(std::span<const Interval>(rough),
+                                        [&] { return std::span<const RationalInterval>(box); });
+    if (truth == Truth::yes) return Meeting::counted;
     const Truth nowhere = nowhere_.everywhere(box);
     if (nowhere == Truth::no) return Meeting::counted;
-    if (told == Truth::undecided) return same_version_ ? Meeting::counted : Meeting::perhaps;
+    if (truth == Truth::undecided) return same_version_ ? Meeting::counted : Meeting::perhaps;
     return nowhere == Truth::yes ? Meeting::off : Meeting::doubted;
   }
 
@@ -142,8 +142,8 @@ bool ends_at_limit(Outside side) {
 PlainExtent extent_of(const GridDimension& dimension) {
   if (dimension.periodic()) return {dimension.lower, dimension.upper};
   PlainExtent extent;
-  if (ends_at_limit(dimension.below)) extent.lower = parts_of(dimension, 0).front().lower;
-  if (ends_at_limit(dimension.above)) extent.upper = parts_of(dimension, dimension.count - 1).back().upper;
+  if (ends_at_limit(dimension.below)) extent.lower = pieces_of(dimension, 0).front().lower;
+  if (ends_at_limit(dimension.above)) extent.upper = pieces_of(dimension, dimension.count - 1).back().upper;
   return extent;
 }
 
@@ -207,19 +207,19 @@ bool reaches_a_sample(const Program& where, const UniformGrid& grid,
 RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
                          bool same_version, ThreadTeam& team)
     : grid_(&grid) {
-  std::vector<std::vector<std::vector<RationalInterval>>> places;  // [state mentioned][index][piece]
+  std::vector<std::vector<std::vector<RationalInterval>>> pieces;  // [state mentioned][index][piece]
   std::vector<std::int64_t> counts;
   std::int64_t choices = 1;
   for (const std::uint32_t slot : where.variables()) {
     states_.push_back(slot);
     counts.push_back(grid[slot].count);
     choices *= grid[slot].count;
-    auto& indices = places.emplace_back();
+    auto& indices = pieces.emplace_back();
     for (std::int64_t k = 0; k < grid[slot].count; ++k) {
-      auto& parts = indices.emplace_back();
-      for (const RationalInterval& part : parts_of(grid[slot], k)) {
-        const bool is_seam = !parts.empty() && part.lower == part.upper;  // the lower end of the next cell
-        if (!is_seam) parts.push_back(part);
+      auto& ranges = indices.emplace_back();
+      for (const RationalInterval& piece : pieces_of(grid[slot], k)) {
+        const bool is_seam = !ranges.empty() && piece.lower == piece.upper;  // the lower end of the next cell
+        if (!is_seam) ranges.push_back(piece);
       }
     }
   }
@@ -230,17 +230,19 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
     Box box(spec.slot_count());
     Odometer choice(counts, range.begin);
     for (std::int64_t c = range.begin; c < range.end; ++c, choice.advance()) {
-      std::vector<std::int64_t> parts;
+      std::vector<std::int64_t> piece_counts;
       for (std::size_t s = 0; s < states_.size(); ++s)
-        parts.push_back(static_cast<std::int64_t>(places[s][static_cast<std::size_t>(choice[s])].size()));
-      Odometer part(parts);
+        piece_counts.push_back(
+            static_cast<std::int64_t>(pieces[s][static_cast<std::size_t>(choice[s])].size()));
+      Odometer piece(piece_counts);
       Meeting most = Meeting::off;
       do {
         for (std::size_t s = 0; s < states_.size(); ++s) {
-          box[states_[s]] = places[s][static_cast<std::size_t>(choice[s])][static_cast<std::size_t>(part[s])];
+          box[states_[s]] =
+              pieces[s][static_cast<std::size_t>(choice[s])][static_cast<std::size_t>(piece[s])];
         }
         most = std::max(most, judge.judge(box));
-      } while (most != Meeting::counted && part.advance());
+      } while (most != Meeting::counted && piece.advance());
       meetings_[static_cast<std::size_t>(c)] = most;
     }
   });

@@ -41,10 +41,10 @@ class Judge {
 
   ResultRequirement judge(std::size_t r) {
     const RequirementSpec& requirement = context_.spec.requirements[r];
-    asked_ = ask(requirement);
+    judged_ = ask(requirement);
     const UniformGrid& grid = context_.abstraction->grid;
     const CellSet region = cells_of_region(requirement.where, grid, team_, context_.shared_rows());
-    const CellVerdict verdict = judge_cells(region, grid, asked_, number_stride_, team_);
+    const CellVerdict verdict = judge_cells(region, grid, judged_, number_stride_, team_);
     ResultRequirement result{.name = requirement.name,
                              .cells = static_cast<std::uint64_t>(verdict.cells),
                              .failing = static_cast<std::uint64_t>(verdict.failing),
@@ -112,20 +112,20 @@ class Judge {
     CounterexampleProblem problem{.context = &context_,
                                   .invariant = is_in(answers_.get<Invariance>().invariant),
                                   .collision_time = steps_from(*controller_.levels),
-                                  .value = [this](std::int64_t x) { return asked_.value_of(x); },
+                                  .value = [this](std::int64_t x) { return judged_.value_of(x); },
                                   .number_stride = number_stride_};
     if (requirement.partition) {
       const auto p = static_cast<std::size_t>(*requirement.partition);
       problem.partition = &context_.spec.coordination.partitions[p];
     }
     if (requirement.kind == RequirementKind::min_silence) {
-      problem.inside = silent_phase(steps_from(asked_.layers->layers_of), nullptr).holds;
+      problem.inside = silent_phase(steps_from(judged_.layers->layers_of), nullptr).holds;
     } else if (is_followed(requirement.kind)) {
       problem.inside = problem.invariant;
     }
     if (is_of_goal(requirement)) {
       problem.arrival = [this, is_invariant = problem.invariant](std::int64_t y) {
-        return is_invariant(y) ? arrival_at(*asked_.nearness, y) : -1;
+        return is_invariant(y) ? arrival_at(*judged_.nearness, y) : -1;
       };
       if (showing_order_) problem.showing_order = steps_from(*showing_order_);
     }
@@ -152,7 +152,7 @@ class Judge {
         return approach_phases(requirement, problem);
       default:
         if (!requirement.partition) return {evasive};
-        return {independent_phase(problem, steps_from(asked_.layers->layers_of)), evasive};
+        return {independent_phase(problem, steps_from(judged_.layers->layers_of)), evasive};
     }
   }
 
@@ -161,7 +161,7 @@ class Judge {
   }
 
   [[nodiscard]] std::vector<CounterexamplePhase> silent_phases(const CounterexampleProblem& problem) const {
-    const StepsFrom silence = steps_from(asked_.layers->layers_of);
+    const StepsFrom silence = steps_from(judged_.layers->layers_of);
     if (!context_.spec.silence->has_then())
       return {silent_phase(silence, problem.collision_time), evasive_phase(problem)};
     const StepsFrom lost = steps_from(answers_.get<Silence>().lost);
@@ -175,7 +175,7 @@ class Judge {
     const StepsFrom countdown = steps_from(blind_layers(answers_, p).layers_of);
     const StepsFrom seen = steps_from(answers_.get<PartitionLayers>().partitions[p].layers_of);
     CounterexamplePhase phase = independent_phase(problem, countdown);
-    phase.first = steps_from(asked_.layers->layers_of);
+    phase.first = steps_from(judged_.layers->layers_of);
     phase.has_no_action = [countdown, seen](std::int64_t x) { return countdown(x) == 1 && seen(x) > 1; };
     return phase;
   }
@@ -189,8 +189,8 @@ class Judge {
               return is_invariant(x) && !winning.test(x);
             }),
             {.choices = PathPhase::approaching,
-             .holds = is_in(goal.away),
-             .steps = steps_from(asked_.layers->layers_of)},
+             .holds = is_in(goal.outside_goal),
+             .steps = steps_from(judged_.layers->layers_of)},
             independent_phase(problem, delay),
             evasive_phase(problem)};
   }
@@ -200,7 +200,7 @@ class Judge {
   const Controller& controller_;
   ThreadTeam& team_;
   UniformGrid grid_;                         ///< the spec's
-  CellRequirement asked_;                    ///< the requirement being judged
+  CellRequirement judged_;                   ///< the requirement being judged
   std::optional<LevelMap> showing_order_;    ///< of a lasting goal, once a path needs it
   std::vector<std::int64_t> number_stride_;  ///< [dimension of the engine]
 };

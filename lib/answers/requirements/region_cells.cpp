@@ -17,9 +17,9 @@ RationalInterval exact_range(const Piece& piece) {
 /// The values that a state can have when cell k is measured. A piece that ends at a seam does not hold the
 /// seam, which is the lower end of the period, and of the next cell.
 std::vector<Piece> measured_pieces(const GridDimension& dimension, std::int64_t k) {
-  std::vector<Piece> parts = pieces(dimension, k);
-  if (parts.size() > 1 && parts.back().lower == parts.back().upper) parts.pop_back();
-  return parts;
+  std::vector<Piece> ranges = pieces(dimension, k);
+  if (ranges.size() > 1 && ranges.back().lower == ranges.back().upper) ranges.pop_back();
+  return ranges;
 }
 
 /// The values of the states that `where` mentions, for each of their indices.
@@ -35,10 +35,10 @@ struct Ranges {
       auto& indices = exact.emplace_back();
       auto& hulls = hull.emplace_back();
       for (std::int64_t k = 0; k < grid[i].count; ++k) {
-        std::vector<RationalInterval>& parts = indices.emplace_back();
-        for (const Piece& piece : measured_pieces(grid[i], k)) parts.push_back(exact_range(piece));
-        RationalInterval whole = parts.front();
-        for (const RationalInterval& part : parts) whole = coordreq::hull(whole, part);
+        std::vector<RationalInterval>& ranges = indices.emplace_back();
+        for (const Piece& piece : measured_pieces(grid[i], k)) ranges.push_back(exact_range(piece));
+        RationalInterval whole = ranges.front();
+        for (const RationalInterval& range : ranges) whole = coordreq::hull(whole, range);
         hulls.push_back(enclose(whole));
       }
     }
@@ -113,17 +113,17 @@ class RegionFinder {
 
   /// Decides a box with one index of each state that `where` mentions, piece by piece.
   [[nodiscard]] bool may_meet(const std::vector<IndexRange>& block) {
-    std::vector<const std::vector<RationalInterval>*> parts;
+    std::vector<const std::vector<RationalInterval>*> ranges;
     std::vector<std::int64_t> counts;
     for (std::size_t s = 0; s < ranges_.states.size(); ++s) {
-      parts.push_back(&ranges_.exact[s][static_cast<std::size_t>(block[ranges_.dimension[s]].first)]);
-      counts.push_back(static_cast<std::int64_t>(parts.back()->size()));
+      ranges.push_back(&ranges_.exact[s][static_cast<std::size_t>(block[ranges_.dimension[s]].first)]);
+      counts.push_back(static_cast<std::int64_t>(ranges.back()->size()));
     }
     Odometer choice(counts);
     do {
-      for (std::size_t s = 0; s < parts.size(); ++s) {
+      for (std::size_t s = 0; s < ranges.size(); ++s) {
         const std::uint32_t i = ranges_.states[s];
-        exact_box_[i] = (*parts[s])[static_cast<std::size_t>(choice.indices()[s])];
+        exact_box_[i] = (*ranges[s])[static_cast<std::size_t>(choice.indices()[s])];
         box_[i] = enclose(exact_box_[i]);
       }
       const auto exact = [this]() -> std::span<const RationalInterval> { return exact_box_; };
@@ -168,7 +168,7 @@ CellSet cells_of_region(const Program& where, const UniformGrid& grid, ThreadTea
   // Threads write to different rows: each to those with an index of its own in the first dimension.
   const std::int64_t slabs = grid.size() > 1 ? grid[0].count : 1;
   team.for_each(slabs, 1, [&](ThreadTeam::Range range, int) {
-    RegionFinder finder(where, grid, ranges, own_rows(share, grid.rows()), cells);
+    RegionFinder finder(where, grid, ranges, local_rows(share, grid.rows()), cells);
     std::vector<IndexRange> block = whole_grid(grid);
     if (grid.size() > 1)
       block[0] = {static_cast<std::int32_t>(range.begin), static_cast<std::int32_t>(range.end - 1)};

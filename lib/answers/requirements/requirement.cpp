@@ -17,7 +17,7 @@ namespace {
 using Rank = std::tuple<std::int64_t, std::int64_t, std::int64_t>;  // of the value, collision time, number
 
 /// The verdict of one thread.
-struct Part {
+struct Partial {
   CellVerdict verdict;
   std::int64_t least_rank = INT64_MAX;  ///< of all cells of the region
   Rank worst;
@@ -30,23 +30,23 @@ std::int64_t number_of(const UniformGrid& grid, std::int64_t cell, const std::ve
 }
 
 /// Joins the verdicts of all processes. Together.
-void join(Ranks& ranks, Part& part) {
+void join(Ranks& ranks, Partial& partial) {
   const auto least = [&ranks](std::int64_t value) { return ~ranks.greatest(~value); };
-  part.verdict.cells = ranks.sum(part.verdict.cells);
-  part.verdict.failing = ranks.sum(part.verdict.failing);
-  const std::int64_t own_rank = part.least_rank;
-  part.least_rank = least(own_rank);
-  part.verdict.worst_value = static_cast<std::int32_t>(
-      ranks.greatest(own_rank == part.least_rank ? std::int64_t{part.verdict.worst_value} : INT64_MIN));
+  partial.verdict.cells = ranks.sum(partial.verdict.cells);
+  partial.verdict.failing = ranks.sum(partial.verdict.failing);
+  const std::int64_t local_rank = partial.least_rank;
+  partial.least_rank = least(local_rank);
+  partial.verdict.worst_value = static_cast<std::int32_t>(ranks.greatest(
+      local_rank == partial.least_rank ? std::int64_t{partial.verdict.worst_value} : INT64_MIN));
   // The worst cell: the least rank, then the least collision time, then the least number.
-  const auto [rank, time, number] = part.worst;
-  bool is_worst = part.verdict.worst.has_value();
-  for (const std::int64_t own : {rank, time, number}) {
-    const std::int64_t all = least(is_worst ? own : INT64_MAX);
-    is_worst = is_worst && own == all;
+  const auto [rank, time, number] = partial.worst;
+  bool is_worst = partial.verdict.worst.has_value();
+  for (const std::int64_t value : {rank, time, number}) {
+    const std::int64_t all = least(is_worst ? value : INT64_MAX);
+    is_worst = is_worst && value == all;
   }
-  const std::int64_t cell = ranks.greatest(is_worst ? *part.verdict.worst : -1);
-  part.verdict.worst = cell < 0 ? std::nullopt : std::optional<std::int64_t>(cell);
+  const std::int64_t cell = ranks.greatest(is_worst ? *partial.verdict.worst : -1);
+  partial.verdict.worst = cell < 0 ? std::nullopt : std::optional<std::int64_t>(cell);
 }
 
 }  // namespace
@@ -82,41 +82,41 @@ std::int64_t rank_of(RequirementKind kind, std::int32_t value) {
 
 CellVerdict judge_cells(const CellSet& region, const UniformGrid& grid, const CellRequirement& requirement,
                         const std::vector<std::int64_t>& number_stride, ThreadTeam& team) {
-  std::vector<Part> parts(static_cast<std::size_t>(team.size()));
-  const auto look_at = [&](std::int64_t cell, Part& part) {
+  std::vector<Partial> partials(static_cast<std::size_t>(team.size()));
+  const auto look_at = [&](std::int64_t cell, Partial& partial) {
     const std::int32_t value = requirement.value_of(cell);
     const std::int64_t rank = rank_of(requirement.kind, value);
-    ++part.verdict.cells;
-    if (rank < part.least_rank) part.verdict.worst_value = value;
-    part.least_rank = std::min(part.least_rank, rank);
+    ++partial.verdict.cells;
+    if (rank < partial.least_rank) partial.verdict.worst_value = value;
+    partial.least_rank = std::min(partial.least_rank, rank);
     if (!fails(requirement.kind, requirement.steps, value)) return;
-    ++part.verdict.failing;
+    ++partial.verdict.failing;
     const std::int64_t collision_time = requirement.collision_time->at(cell);
-    if (part.verdict.worst &&
-        std::tie(rank, collision_time) > std::tie(std::get<0>(part.worst), std::get<1>(part.worst)))
+    if (partial.verdict.worst &&
+        std::tie(rank, collision_time) > std::tie(std::get<0>(partial.worst), std::get<1>(partial.worst)))
       return;
-    const Rank own(rank, collision_time, number_of(grid, cell, number_stride));
-    if (part.verdict.worst && part.worst <= own) return;
-    part.verdict.worst = cell;
-    part.worst = own;
+    const Rank key(rank, collision_time, number_of(grid, cell, number_stride));
+    if (partial.verdict.worst && partial.worst <= key) return;
+    partial.verdict.worst = cell;
+    partial.worst = key;
   };
   const RowShare* const share = requirement.collision_time->share();
-  for_each_own_row(team, share, grid.rows(), 1024, [&](ThreadTeam::Range range, int worker) {
-    Part& part = parts[static_cast<std::size_t>(worker)];
+  for_each_local_row(team, share, grid.rows(), 1024, [&](ThreadTeam::Range range, int worker) {
+    Partial& partial = partials[static_cast<std::size_t>(worker)];
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       for_each_bit(region.row(r),
-                   [&](std::int64_t column) { look_at(r * grid.row_length() + column, part); });
+                   [&](std::int64_t column) { look_at(r * grid.row_length() + column, partial); });
     }
   });
-  Part all;
-  for (const Part& part : parts) {
-    all.verdict.cells += part.verdict.cells;
-    all.verdict.failing += part.verdict.failing;
-    if (part.least_rank < all.least_rank) all.verdict.worst_value = part.verdict.worst_value;
-    all.least_rank = std::min(all.least_rank, part.least_rank);
-    if (!part.verdict.worst || (all.verdict.worst && all.worst <= part.worst)) continue;
-    all.verdict.worst = part.verdict.worst;
-    all.worst = part.worst;
+  Partial all;
+  for (const Partial& partial : partials) {
+    all.verdict.cells += partial.verdict.cells;
+    all.verdict.failing += partial.verdict.failing;
+    if (partial.least_rank < all.least_rank) all.verdict.worst_value = partial.verdict.worst_value;
+    all.least_rank = std::min(all.least_rank, partial.least_rank);
+    if (!partial.verdict.worst || (all.verdict.worst && all.worst <= partial.worst)) continue;
+    all.verdict.worst = partial.verdict.worst;
+    all.worst = partial.worst;
   }
   if (share != nullptr) join(share->ranks(), all);
   return all.verdict;

@@ -38,13 +38,13 @@ ResultPath read_path(const FieldSource& source, std::size_t requirement) {
 }
 
 /// Reads the greatest risk of a region.
-void take_risk(const RequirementSpec& asked, double risk, const FieldSource& source,
+void take_risk(const RequirementSpec& spec, double risk, const FieldSource& source,
                ResultRequirement& requirement) {
   const auto number = static_cast<float>(risk);
   if (!(number >= 0) || number > 1) source.fail("no probability", counterexample_path("risk"));
   requirement.is_risk = true;
   requirement.least_delay = std::bit_cast<std::int32_t>(number);
-  requirement.risk = compared_risk(asked, requirement.least_delay, source.number("/risk", "rate"));
+  requirement.risk = compared_risk(spec, requirement.least_delay, source.number("/risk", "rate"));
 }
 
 }  // namespace

@@ -52,16 +52,16 @@ double expected(const Outgoing& outgoing, const std::function<double(std::size_t
   double sum = 0;
   std::vector<std::pair<double, double>> more;  // (risk, probability that its mode may have beyond its least)
   for (const Successor& next : outgoing.successors) {
-    const double own = risk(next.mode);
-    sum += next.least * own;
-    more.emplace_back(own, next.more);
+    const double value = risk(next.mode);
+    sum += next.least * value;
+    more.emplace_back(value, next.more);
   }
   if (outgoing.rest == 0) return sum;
   std::sort(more.begin(), more.end(), std::greater<>());
   double rest = outgoing.rest;
-  for (const auto& [own, most] : more) {
+  for (const auto& [value, most] : more) {
     const double given = std::min(most, rest);
-    sum += given * own;
+    sum += given * value;
     rest -= given;
   }
   return sum;
@@ -86,8 +86,8 @@ Ranked rank_expected(const Outgoing& outgoing, const std::vector<std::vector<Num
   Ranked result{.risks = all, .rank = {}};
   std::sort(result.risks.begin(), result.risks.end(), std::greater<>());
   result.risks.erase(std::unique(result.risks.begin(), result.risks.end()), result.risks.end());
-  for (const double own : all) {
-    const auto found = std::lower_bound(result.risks.begin(), result.risks.end(), own, std::greater<>());
+  for (const double value : all) {
+    const auto found = std::lower_bound(result.risks.begin(), result.risks.end(), value, std::greater<>());
     result.rank.push_back(static_cast<std::int32_t>(found - result.risks.begin()));
   }
   return result;
@@ -132,8 +132,8 @@ class RiskStep {
     if (choices.empty()) return 1;
     double chosen = is_least_[mode] ? 1 : 0;
     for (const std::int64_t u : choices) {
-      const double own = worst(u, after);
-      chosen = is_least_[mode] ? std::min(chosen, own) : std::max(chosen, own);
+      const double value = worst(u, after);
+      chosen = is_least_[mode] ? std::min(chosen, value) : std::max(chosen, value);
     }
     return chosen;
   }
@@ -187,7 +187,7 @@ class RiskTally : public Tally {
   void complain(const CheckedCell& cell, std::size_t mode, const std::string& what) {
     const auto modes = static_cast<std::int64_t>(context_.spec->network->modes.size());
     add_wrong(cell.number() * modes + static_cast<std::int64_t>(mode), [&] {
-      return fmt::format("{}, mode {}: {}", cell.place(), context_.spec->network->modes[mode].name, what);
+      return fmt::format("{}, mode {}: {}", cell.location(), context_.spec->network->modes[mode].name, what);
     });
   }
   /// Counts a claim as open if posts, and so risks, may be others than those of the analysis; else as wrong.
@@ -217,7 +217,7 @@ class RiskChecker : public CellChecker {
         tally_.complain(cell, mode, "a risk that is no probability");
       } else if (!cell.is_invariant()) {
         if (claimed != 1) tally_.complain(cell, mode, fmt::format("risk {:.3g} outside K", claimed));
-      } else if (cell.is_over()) {
+      } else if (cell.is_terminal()) {
         if (claimed != 0)
           tally_.complain(cell, mode, fmt::format("risk {:.3g}, but the task is over", claimed));
       } else {
@@ -230,15 +230,15 @@ class RiskChecker : public CellChecker {
  private:
   /// The risk before the first draw follows from those claimed for the modes. It is rounded up to a float.
   void compare_drawn(const CheckedCell& cell) {
-    constexpr double kPart = 1e-6, kLeast = 1e-40;
+    constexpr double kFraction = 1e-6, kLeast = 1e-40;
     const auto claimed = double{(*claims_.drawn)[cell.at()]};
-    const double own = std::min(1.0, expected(claims_.outgoing.front(), [&](std::size_t mode) {
-                                  return as_probability(claims_.risks[mode][cell.at()]);
-                                }));
+    const double value = std::min(1.0, expected(claims_.outgoing.front(), [&](std::size_t mode) {
+                                    return as_probability(claims_.risks[mode][cell.at()]);
+                                  }));
     tally_.add_checked(1);
-    if (own * (1 - claims_.rounding) <= claimed && claimed <= own * (1 + kPart) + kLeast) return;
-    tally_.complain(cell, 0,
-                    fmt::format("risk {:.6g} where the first step is drawn, expected {:.6g}", claimed, own));
+    if (value * (1 - claims_.rounding) <= claimed && claimed <= value * (1 + kFraction) + kLeast) return;
+    tally_.complain(
+        cell, 0, fmt::format("risk {:.6g} where the first step is drawn, expected {:.6g}", claimed, value));
   }
   void compare(CheckedCell& cell, std::size_t mode, double claimed) {
     const double next = step_.risk(mode, claims_.after[mode]);
@@ -275,7 +275,7 @@ class RiskCheck : public AnswerCheck {
       std::vector<std::vector<double>> next = risks;
       const std::vector<Ranked> after = rank_all(claims_.outgoing, risks);
       for_each_cell(team, [&](CheckedCell& cell, RiskStep& step) {
-        if (!cell.is_invariant() || cell.is_over()) return;
+        if (!cell.is_invariant() || cell.is_terminal()) return;
         step.go_to(cell);
         for (std::size_t mode = 0; mode < next.size(); ++mode)
           next[mode][cell.at()] = step.risk(mode, after[mode]);
@@ -317,14 +317,14 @@ class RiskCheck : public AnswerCheck {
   void compare(const CheckedCell& cell, const std::vector<std::vector<double>>& risks) {
     const double steps = static_cast<double>(claims_.spec.risk->horizon);
     const double rounding = std::min(0.5, steps * claims_.rounding);
-    constexpr double kPart = 1e-3, kLeast = 1e-30;  // the most by which the analysis may round up
+    constexpr double kFraction = 1e-3, kLeast = 1e-30;  // the most by which the analysis may round up
     for (std::size_t mode = 0; mode < risks.size(); ++mode) {
       full_tally_.add_checked(1);
       const auto claimed = double{claims_.risks[mode][cell.at()]};
-      const double own = risks[mode][cell.at()];
-      const bool is_low = claimed < own * (1 - rounding);
-      if (!is_low && claimed <= own * (1 + rounding) * (1 + kPart) + kLeast) continue;
-      full_tally_.doubt(cell, mode, fmt::format("risk {:.6g}, expected {:.6g}", claimed, own));
+      const double value = risks[mode][cell.at()];
+      const bool is_low = claimed < value * (1 - rounding);
+      if (!is_low && claimed <= value * (1 + rounding) * (1 + kFraction) + kLeast) continue;
+      full_tally_.doubt(cell, mode, fmt::format("risk {:.6g}, expected {:.6g}", claimed, value));
     }
   }
 

@@ -29,7 +29,7 @@ bool ExpectedLevels<Level>::update(const std::vector<LevelRows<std::uint32_t>>& 
     if (is_new_) {
       find_rows(number, risks, held_rows(share, engine_.rows()), nullptr, team);
     } else {
-      find_rows(number, risks, {own_rows(share, engine_.rows())}, &changed, team);
+      find_rows(number, risks, {local_rows(share, engine_.rows())}, &changed, team);
       if (share != nullptr) exchange(number);
     }
     rows += std::count(changed_[number].begin(), changed_[number].end(), 1);
@@ -42,7 +42,7 @@ template <class Level>
 void ExpectedLevels<Level>::load(std::size_t number, const std::vector<LevelRows<std::uint32_t>>& risks,
                                  ThreadTeam& team) {
   changed_[number].assign(static_cast<std::size_t>(engine_.rows()), 1);
-  find_rows(number, risks, {own_rows(engine_.share(), engine_.rows())}, nullptr, team);
+  find_rows(number, risks, {local_rows(engine_.share(), engine_.rows())}, nullptr, team);
   if (engine_.share() != nullptr) exchange(number);
 }
 
@@ -52,22 +52,22 @@ void ExpectedLevels<Level>::find_rows(std::size_t number, const std::vector<Leve
                                       const std::vector<std::vector<std::uint8_t>>* changed,
                                       ThreadTeam& team) {
   const ExpectedRisk& expected = expected_.different[number];
-  LevelRows<Level>& levels = own(number);
+  LevelRows<Level>& levels = levels_of(number);
   const auto n = static_cast<std::size_t>(levels.row_length());
   for_each_row_of(team, runs, kGrain, [&](ThreadTeam::Range range, int) {
     std::vector<const std::uint32_t*> sources(expected.successors().size());
     std::vector<Level> lanes(static_cast<std::size_t>(levels.stride()));
     const std::int64_t before = levels.margins().before;
-    Level* const found = lanes.data() + before;
+    Level* const next = lanes.data() + before;
     for (std::int64_t row = range.begin; row < range.end; ++row) {
       const auto r = static_cast<std::size_t>(row);
       const auto has_changed = [&](std::size_t mode) { return (*changed)[mode][r] != 0; };
       if (changed != nullptr && std::ranges::none_of(expected.successors(), has_changed)) continue;
       std::ranges::transform(expected.successors(), sources.begin(),
                              [&](std::size_t mode) { return risks[mode].row(row); });
-      expected.find<Level>(sources, n, found);
+      expected.find<Level>(sources, n, next);
       const std::uint64_t ready = levels.make_ready(lanes.data());
-      if (std::equal(found, found + n, levels.row(row))) continue;
+      if (std::equal(next, next + n, levels.row(row))) continue;
       levels.put_ready(row, lanes.data(), ready);
       changed_[number][r] = 1;
     }
@@ -77,7 +77,7 @@ void ExpectedLevels<Level>::find_rows(std::size_t number, const std::vector<Leve
 /// Sends own rows that have changed, and takes in ghost rows.
 template <class Level>
 void ExpectedLevels<Level>::exchange(std::size_t number) {
-  LevelRows<Level>& levels = own(number);
+  LevelRows<Level>& levels = levels_of(number);
   LevelMessages<Level> messages(levels);
   messages.exchange([&](std::int64_t row) { return changed_[number][static_cast<std::size_t>(row)] != 0; },
                     [&](std::int64_t row, const Level* cells) {

@@ -43,7 +43,7 @@ class ExpectedLevels {
                  const std::vector<RowShare::Range>& runs,
                  const std::vector<std::vector<std::uint8_t>>* changed, ThreadTeam& team);
   void exchange(std::size_t number);
-  [[nodiscard]] LevelRows<Level>& own(std::size_t number) {
+  [[nodiscard]] LevelRows<Level>& levels_of(std::size_t number) {
     return levels_[levels_.size() == 1 ? 0 : number];
   }
 

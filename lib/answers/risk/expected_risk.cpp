@@ -57,10 +57,10 @@ float risk_at(const std::uint32_t* row, std::size_t lane) {
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return std::tie(risks[b], a) < std::tie(risks[a], b); });
   for (const std::size_t i : order) {
-    const double own = std::min(more[i], rest);
-    sum += own * double{risks[i]};
-    if (own == rest) return;
-    rest -= own;
+    const double given = std::min(more[i], rest);
+    sum += given * double{risks[i]};
+    if (given == rest) return;
+    rest -= given;
   }
 }
 

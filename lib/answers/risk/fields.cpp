@@ -42,13 +42,13 @@ Field risk_field(const ProblemSpec& spec) {
                                   "the network is in this mode") +
                         std::vector<FieldAttribute>{{"horizon", spec.risk->horizon}, {"rate", 0.0, true}},
           .display = {.column = "risk",
-                    .compared = "risk",
-                    .less_is_better = true,
-                    .query = {.name = "risk",
-                              .words = "risk in",
-                              .heading = fmt::format("probability to leave the invariance set within {}",
-                                                     count_of(spec.risk->horizon, "step"))},
-                    .map = {.kind = "risk", .title = "Risk"}}};
+                      .compared = "risk",
+                      .less_is_better = true,
+                      .query = {.name = "risk",
+                                .label = "risk in",
+                                .heading = fmt::format("probability to leave the invariance set within {}",
+                                                       count_of(spec.risk->horizon, "step"))},
+                      .map = {.kind = "risk", .title = "Risk"}}};
 }
 
 /// A leading axis of one entry, so that it is shown as the risks in modes are.
@@ -61,7 +61,7 @@ Field drawn_risk_field(const ProblemSpec& spec) {
       "the first step");
   field.display.column = field.display.compared = "risk_drawn";
   field.display.query.name = "risk_drawn";
-  field.display.query.words = "risk with the network";
+  field.display.query.label = "risk with the network";
   field.display.map.title = "Risk, first step drawn";
   return field;
 }

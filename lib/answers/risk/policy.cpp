@@ -60,7 +60,7 @@ class SafestPolicy : public CellPolicy {
 }  // namespace
 
 AnswerPolicy safest_policy(const std::string& delay) {
-  return {.words = "safest actions",
+  return {.label = "safest actions",
           .delay = delay,
           .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
             return std::make_unique<SafestPolicy>(context);

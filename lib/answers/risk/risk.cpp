@@ -20,7 +20,7 @@ class RiskIteration {
       : problem_(problem),
         engine_(*problem.network.controller->engine),
         invariant_(*problem.network.invariant),
-        going_on_(*problem.network.controller->invariant),
+        nonterminal_(*problem.network.controller->invariant),
         watch_(watch),
         team_(team),
         choices_(problem.network, problem.is_safest ? Agreement::safest : Agreement::none, team) {
@@ -35,12 +35,12 @@ class RiskIteration {
     while (state_.steps < problem_.horizon) {
       if (!expected.update(state_.risks, changed, team_)) break;
       for (std::size_t mode = 0; mode < modes(); ++mode) {
-        if (mode > 0) tell(sweep, 0);
+        if (mode > 0) report(sweep, 0);
         changed[mode].assign(static_cast<std::size_t>(engine_.rows()), 0);
         step(mode, expected, sweep, changed[mode]);
       }
       ++state_.steps;
-      tell(sweep, modes());
+      report(sweep, modes());
     }
     return {.risks = {}, .rate = 0, .counts = sweep.counts()};
   }
@@ -70,11 +70,11 @@ class RiskIteration {
   void step(std::size_t mode, const ExpectedLevels<std::uint32_t>& expected, ModeSweep<std::uint32_t>& sweep,
             std::vector<std::uint8_t>& changed) {
     const std::size_t number = problem_.expected->of_mode[mode];
-    const std::vector<std::uint8_t>& met = expected.changed(number);
+    const std::vector<std::uint8_t>& meets_changes = expected.changed(number);
     // The first step visits all rows: those whose posts meet no row may still have forbidden joint inputs.
     const PendingRows rows = pending_rows(
-        problem_.network, going_on_, state_.steps == 0,
-        [&](std::int64_t row) { return met[static_cast<std::size_t>(row)] != 0; }, team_);
+        problem_.network, nonterminal_, state_.steps == 0,
+        [&](std::int64_t row) { return meets_changes[static_cast<std::size_t>(row)] != 0; }, team_);
     const auto n = static_cast<std::size_t>(engine_.row_length());
     const std::vector<std::uint32_t> certain(n + kLevelBlock, kCertain<std::uint32_t>);
     sweep.run(mode, expected.of(number), rows, invariant_, [&](std::int64_t row, std::uint32_t* next, int) {
@@ -89,11 +89,11 @@ class RiskIteration {
   void compare(std::size_t mode, const ExpectedLevels<std::uint64_t>& expected,
                ModeSweep<std::uint64_t>& sweep, std::vector<double>& rates) const {
     const auto all = [](std::int64_t) { return true; };
-    const PendingRows rows = pending_rows(problem_.network, going_on_, true, all, team_);
+    const PendingRows rows = pending_rows(problem_.network, nonterminal_, true, all, team_);
     const auto raise = [&](std::int64_t row, const std::uint64_t* next, int w) {
       double& rate = rates[static_cast<std::size_t>(w)];
       const std::uint32_t* const present = state_.risks[mode].row(row);
-      for_each_bit(going_on_.row(row), [&](std::int64_t x) {
+      for_each_bit(nonterminal_.row(row), [&](std::int64_t x) {
         rate = std::max(rate, outward::add_up(risk_of(next[x]), -double{risk_of(present[x])}));
       });
     };
@@ -101,7 +101,7 @@ class RiskIteration {
   }
 
   /// Reports a step of a mode; with the state of all modes after a whole one.
-  void tell(const ModeSweep<std::uint32_t>& sweep, std::size_t modes) const {
+  void report(const ModeSweep<std::uint32_t>& sweep, std::size_t modes) const {
     if (!watch_.step) return;
     sweep.report([this](const WaveStep& step) { watch_.step(step, state_.steps); },
                  std::span<const RiskRows>(state_.risks).first(modes));
@@ -110,7 +110,7 @@ class RiskIteration {
   const RiskProblem& problem_;
   const RowEngine& engine_;
   const CellSet& invariant_;
-  const CellSet& going_on_;  ///< the cells whose posts are looked at
+  const CellSet& nonterminal_;  ///< the cells whose posts are looked at
   const RiskWatch& watch_;
   ThreadTeam& team_;
   ModeChoices choices_;
@@ -148,7 +148,7 @@ RiskRows drawn_risks(const ExpectedRisk& expected, const std::vector<RiskRows>& 
                      ThreadTeam& team) {
   const auto n = static_cast<std::size_t>(risks.front().row_length());
   RiskRows drawn(risks.front().rows(), risks.front().row_length(), RowMargins{}, RowEnds{});
-  for_each_own_row(team, share, drawn.rows(), 64, [&](ThreadTeam::Range range, int) {
+  for_each_local_row(team, share, drawn.rows(), 64, [&](ThreadTeam::Range range, int) {
     std::vector<std::uint32_t> lanes(n + kLevelBlock);
     std::vector<const std::uint32_t*> rows(expected.successors().size());
     for (std::int64_t row = range.begin; row < range.end; ++row) {

@@ -22,7 +22,7 @@ constexpr int kDigitBits = 24;
 
 using Digits = std::array<std::int64_t, kDigits>;  ///< the most significant first
 
-struct Part {
+struct Partial {
   std::int64_t cells = 0;
   std::array<std::int64_t, RiskFigures::kThresholds> within = {};
   Digits sum = {};
@@ -31,25 +31,25 @@ struct Part {
 /// Calls `body(risk, part)` for the cells of K.
 template <class Body>
 void for_each_risk(const RiskRows& risks, const CellSet& invariant, const RowShare* share, ThreadTeam& team,
-                   std::vector<Part>& parts, const Body& body) {
-  for_each_own_row(team, share, risks.rows(), 256, [&](ThreadTeam::Range range, int worker) {
-    Part& part = parts[static_cast<std::size_t>(worker)];
+                   std::vector<Partial>& partials, const Body& body) {
+  for_each_local_row(team, share, risks.rows(), 256, [&](ThreadTeam::Range range, int worker) {
+    Partial& partial = partials[static_cast<std::size_t>(worker)];
     for (std::int64_t row = range.begin; row < range.end; ++row) {
-      const std::uint32_t* const own = risks.row(row);
-      for_each_bit(invariant.row(row), [&](std::int64_t x) { body(risk_of(own[x]), part); });
+      const std::uint32_t* const levels = risks.row(row);
+      for_each_bit(invariant.row(row), [&](std::int64_t x) { body(risk_of(levels[x]), partial); });
     }
   });
 }
 
-std::int64_t greatest_of_all(const RowShare* share, std::int64_t own) {
-  return share == nullptr ? own : share->ranks().greatest(own);
+std::int64_t greatest_of_all(const RowShare* share, std::int64_t local) {
+  return share == nullptr ? local : share->ranks().greatest(local);
 }
 
 /// The greatest risk in K, of all processes.
 float worst_risk(const RiskRows& risks, const CellSet& invariant, const RowShare* share) {
   std::uint32_t lowest = RiskRows::kTop;
-  const RowShare::Range own = own_rows(share, risks.rows());
-  for (std::int64_t row = own.begin; row < own.end; ++row) {
+  const RowShare::Range local = local_rows(share, risks.rows());
+  for (std::int64_t row = local.begin; row < local.end; ++row) {
     const std::uint32_t* const levels = risks.row(row);
     for_each_bit(invariant.row(row), [&](std::int64_t x) { lowest = std::min(lowest, levels[x]); });
   }
@@ -75,23 +75,23 @@ RiskFigures risk_figures(const RiskRows& risks, const CellSet& invariant, const 
   const float worst = worst_risk(risks, invariant, share);
   // A power of two, so that only the digits that are cut off are lost; the worst risk fills the first digit.
   const double unit = worst == 0 ? 1 : std::ldexp(1, std::ilogb(worst) - kDigitBits + 1);
-  std::vector<Part> parts(static_cast<std::size_t>(team.size()));
-  for_each_risk(risks, invariant, share, team, parts, [&](float risk, Part& part) {
-    ++part.cells;
+  std::vector<Partial> partials(static_cast<std::size_t>(team.size()));
+  for_each_risk(risks, invariant, share, team, partials, [&](float risk, Partial& partial) {
+    ++partial.cells;
     const auto first = std::lower_bound(kWithin.begin(), kWithin.end(), double{risk});
-    if (first != kWithin.end()) ++part.within[static_cast<std::size_t>(first - kWithin.begin())];
-    add(risk, unit, part.sum);
+    if (first != kWithin.end()) ++partial.within[static_cast<std::size_t>(first - kWithin.begin())];
+    add(risk, unit, partial.sum);
   });
-  Part all;
-  for (const Part& part : parts) {
-    all.cells += part.cells;
-    for (std::size_t i = 0; i < kWithin.size(); ++i) all.within[i] += part.within[i];
-    for (std::size_t i = 0; i < kDigits; ++i) all.sum[i] += part.sum[i];
+  Partial all;
+  for (const Partial& partial : partials) {
+    all.cells += partial.cells;
+    for (std::size_t i = 0; i < kWithin.size(); ++i) all.within[i] += partial.within[i];
+    for (std::size_t i = 0; i < kDigits; ++i) all.sum[i] += partial.sum[i];
   }
   RiskFigures figures;
   for (std::size_t i = 0; i < kWithin.size(); ++i) {
-    const std::int64_t own = sum_of_all(share, all.within[i]);
-    figures.within[i] = own + (i == 0 ? 0 : figures.within[i - 1]);
+    const std::int64_t cells = sum_of_all(share, all.within[i]);
+    figures.within[i] = cells + (i == 0 ? 0 : figures.within[i - 1]);
   }
   const std::int64_t cells = sum_of_all(share, all.cells);
   double sum = 0;

@@ -36,12 +36,12 @@ Silence& silence_in(Answers& answers) {
   return answers.get<Silence>();
 }
 
-/// The cells of a set in which the task goes on: all but those of a goal that ends it. @param part storage
+/// The nonterminal cells of a set: all but those of a goal that ends it. @param subset storage
 /// for them
-const CellSet& going_on(const AnalysisContext& context, const CellSet& set, CellSet& part) {
-  if (!context.over) return set;
-  part = part_of(set, *context.over, false, context.shared_rows());
-  return part;
+const CellSet& nonterminal_cells(const AnalysisContext& context, const CellSet& set, CellSet& subset) {
+  if (!context.terminal) return set;
+  subset = subset_of(set, *context.terminal, false, context.shared_rows());
+  return subset;
 }
 
 /// Finds K' = lim SPRE_S^i(X) for the product of the actions that `then` leaves to each agent: by the
@@ -51,13 +51,13 @@ void find_set(Answers& answers, const StageWork& work) {
   Silence& silence = silence_in(answers);
   const LevelBounds bounds{&context.safe, context.engine->grid().points() + 1};
   find_or_take_levels(work, *context.engine, bounds, silence.lost, [&](const WaveWatch& watch) {
-    work.enter_part("projections");
-    CellSet part;
+    work.enter_substage("projections");
+    CellSet subset;
     const SilentActions actions(answers, {context.spec.silence->then, "then"}, agents_alone(context.spec),
-                                going_on(context, context.safe, part), work.team);
-    work.enter_part("");
+                                nonterminal_cells(context, context.safe, subset), work.team);
+    work.enter_substage("");
     return find_layer_levels(*context.engine, *context.hull, context.safe, actions.projections, {},
-                             std::nullopt, watch, work.team, silence.counts, context.over_or_null());
+                             std::nullopt, watch, work.team, silence.counts, context.terminal_or_null());
   });
   silence.set = silence.lost.top_cells(work.team);
   silence.cells = context.count(silence.set);
@@ -65,8 +65,8 @@ void find_set(Answers& answers, const StageWork& work) {
 
 std::vector<std::int64_t> sums(const AnalysisContext& context, const SilentActions& actions) {
   std::vector<std::int64_t> result;
-  for (const std::atomic<std::int64_t>& own : actions.without_action)
-    result.push_back(sum_of_all(context.shared_rows(), own));
+  for (const std::atomic<std::int64_t>& count : actions.without_action)
+    result.push_back(sum_of_all(context.shared_rows(), count));
   return result;
 }
 
@@ -78,23 +78,23 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   const CoordinationSpec& coordination = spec.coordination;
   SilencePartition& partition = silence_in(answers).partitions[p];
   const CellSet& set = silence_set(answers);
-  CellSet part;
-  const CellSet& asked = going_on(context, set, part);
+  CellSet subset;
+  const CellSet& cells = nonterminal_cells(context, set, subset);
   const auto classes =
       all_have_rules(*spec.silence) ? agents_alone(spec) : coordination.partitions[p].classes;
   const AgentRules rules{spec.silence->actions, "actions"};
   const auto find = [&](const WaveWatch& watch, WaveCounts& counts) {
-    work.enter_part("projections");
-    const SilentActions actions(answers, rules, classes, asked, work.team);
-    work.enter_part("");
+    work.enter_substage("projections");
+    const SilentActions actions(answers, rules, classes, cells, work.team);
+    work.enter_substage("");
     partition.without_action = sums(context, actions);
     return find_layer_levels(*context.engine, *context.hull, set, actions.projections, {},
-                             coordination.max_delay, watch, work.team, counts, context.over_or_null());
+                             coordination.max_delay, watch, work.team, counts, context.terminal_or_null());
   };
   find_layers(context, *context.engine, set, work, partition.layers, find);
   // Kept levels do not have these counts.
   if (partition.without_action.empty())
-    partition.without_action = sums(context, SilentActions(answers, rules, classes, asked, work.team));
+    partition.without_action = sums(context, SilentActions(answers, rules, classes, cells, work.team));
 }
 
 std::string stage_name(const ProblemSpec& spec, std::size_t p) {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 #include "answers/checking/steps_check.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
@@ -50,7 +50,7 @@ struct SetOfSilence {
 
 /// Whether all actions of `then` keep a cell in a set, or the task ends in the cell. @param set [cell] 0 or 1
 bool stays(CheckedCell& cell, ClassChoices& then, const std::vector<std::uint8_t>& set) {
-  if (cell.is_over()) return true;
+  if (cell.is_terminal()) return true;
   then.go_to(cell.number(), cell.admitted());
   const std::vector<std::int64_t> choices = then.joint();
   return !choices.empty() && std::ranges::all_of(choices, [&](std::int64_t u) {
@@ -89,7 +89,7 @@ class SilenceChecker : public CellChecker {
     if (set_.members[cell.at()] == 0) return;
     if (is_member && stays(cell, *then_, set_.members)) return;
     set_.tally.add_wrong(cell.number(),
-                         [&] { return cell.place() + ": the fallback rule does not keep it there"; });
+                         [&] { return cell.location() + ": the fallback rule does not keep it there"; });
   }
 
   const CheckContext& context_;
@@ -146,7 +146,7 @@ class SilenceCheck : public StepsCheck<PartitionOfSilence> {
         set_.tally.add_unproven();
       } else {
         set_.tally.add_wrong(x, [&] {
-          return place_of(*context_.grid, x) + ": expected in the set, the fallback rule keeps it";
+          return location_of(*context_.grid, x) + ": expected in the set, the fallback rule keeps it";
         });
       }
     }

@@ -25,7 +25,7 @@ Field silence_field(const ProblemSpec& spec) {
               {{kOutsideSafe, "not_safe"}, {kOutsideInvariant, outside}, {kLargestValue, "unbounded"}})},
       {.column = "silence",
        .compared = "silence",
-       .query = {.words = "silence",
+       .query = {.label = "silence",
                  .meanings = {{"not_safe", "none: the cell is not safe"},
                               {"not_invariant", "none: no coordination keeps the system safe from here"},
                               {"not_in_silence_set", "none: the fallback rule does not keep the system safe"},

@@ -40,7 +40,7 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
   if (!spec.silence) return {};
   return {{.name = kSilenceKind.name,
            .kind = &kSilenceKind,
-           .words = "silent",
+           .label = "silent",
            .gain = "safe by the rule",
            .headline = "by the communication-loss rule",
            .delay = paths::kSilence,

@@ -81,16 +81,16 @@ SilentActions::SilentActions(const Answers& answers, const AgentRules& rules, co
       without_action(rules.conditions.size()),
       grouping(*answers.context.engine, inputs_of(answers.context, classes),
                sources_of(answers.context, tables), team),
-      projections(answers.get<GoingOn>().controller, grouping, team,
+      projections(answers.get<NonterminalController>().controller, grouping, team,
                   rules_of(rules, classes, tables, grouping.sources().size(), cells, without_action)) {}
 
 double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {
   const SilenceSpec& silence = *sizes.model().spec().silence;
   double tables = 0;
   for (const auto* const rules : {&silence.actions, &silence.then}) {
-    double own = 0;
-    for (const std::optional<Program>& rule : *rules) own += rule ? 2 * sizes.condition(*rule) : 0;
-    tables = std::max(tables, own);
+    double rule_tables = 0;
+    for (const std::optional<Program>& rule : *rules) rule_tables += rule ? 2 * sizes.condition(*rule) : 0;
+    tables = std::max(tables, rule_tables);
   }
   double masks = sizes.set();  // the set of cells where a class has no action
   for (const InputClass& input_class : classes)

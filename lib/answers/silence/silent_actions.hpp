@@ -26,7 +26,7 @@ struct AgentRules {
 ///
 /// With the conditions of `then`, each agent in a class of its own, this is C'.
 struct SilentActions {
-  /// @pre unchecked: K is known; `cells` outlives this object. @param cells where A is asked for
+  /// @pre unchecked: K is known; `cells` outlives this object. @param cells where A is required
   /// @throws SpecError naming the first grid point where a condition cannot be decided
   SilentActions(const Answers& answers, const AgentRules& rules,
                 const std::vector<std::vector<std::int32_t>>& classes, const CellSet& cells,

@@ -32,11 +32,11 @@ class Tables : public ByteTables {
     return 3;
   }
   [[nodiscard]] std::vector<std::uint8_t> bytes(const std::string& path,
-                                                const std::vector<std::int64_t>& place) const override {
+                                                const std::vector<std::int64_t>& indices) const override {
     EXPECT_EQ(path, "/silent/a|b/a");
-    EXPECT_EQ(place.size(), 2U);
-    return {static_cast<std::uint8_t>(static_cast<unsigned>(place[0] + 1) | static_cast<unsigned>(place[1])
-                                                                                << 2U)};
+    EXPECT_EQ(indices.size(), 2U);
+    return {static_cast<std::uint8_t>(static_cast<unsigned>(indices[0] + 1) |
+                                      static_cast<unsigned>(indices[1]) << 2U)};
   }
 };
 
@@ -74,24 +74,25 @@ using Numbers = CellPolicy::Numbers;
 
 TEST_F(BlindPolicyTest, CountsDownFromTheLeastOfAllCellsThatMayBeNext) {
   set_countdowns({9, 3, 8, 5, kForEver});
-  const auto own = policy();
-  EXPECT_EQ(own->countdown_after(4, input(0)), 3);         // cells 1, 2 and 3
-  EXPECT_EQ(own->countdown_after(4, input(1)), 5);         // 2, 3 and 4
-  EXPECT_EQ(own->countdown_after(8, input(0)), 5);         // 3 and 4, or beyond the safe side
-  EXPECT_EQ(own->countdown_after(8, input(2)), kForEver);  // all is beyond it
+  const auto blind_policy = policy();
+  EXPECT_EQ(blind_policy->countdown_after(4, input(0)), 3);         // cells 1, 2 and 3
+  EXPECT_EQ(blind_policy->countdown_after(4, input(1)), 5);         // 2, 3 and 4
+  EXPECT_EQ(blind_policy->countdown_after(8, input(0)), 5);         // 3 and 4, or beyond the safe side
+  EXPECT_EQ(blind_policy->countdown_after(8, input(2)), kForEver);  // all is beyond it
 }
 
 TEST_F(BlindPolicyTest, TakesTheRowOfWhatTheClassSees) {
-  const auto own = policy();
+  const auto blind_policy = policy();
   const std::vector<InputClass> classes =
       input_classes(spec_, abstraction_.inputs, spec_.coordination.partitions.front());
   const Numbers together{0, 1};
-  EXPECT_EQ(own->alone(4, 1, together, classes), (std::vector<Numbers>{{0}, {0, 1}}));
-  EXPECT_EQ(own->alone(4, 2, together, classes), (std::vector<Numbers>{{1}, {0, 1}}));
-  EXPECT_EQ(own->alone(5, 2, together, classes), (std::vector<Numbers>{{1, 2}, {0, 1}}));
-  EXPECT_EQ(own->alone(4, 4, together, classes), (std::vector<Numbers>{{0, 1}, {0, 1}}));  // the last row
-  EXPECT_EQ(own->alone(4, kForEver, together, classes), (std::vector<Numbers>{{0, 1}, {0, 1}}));
-  EXPECT_EQ(own->alone(4, 0, together, classes), (std::vector<Numbers>{{}, {}}));
+  EXPECT_EQ(blind_policy->alone(4, 1, together, classes), (std::vector<Numbers>{{0}, {0, 1}}));
+  EXPECT_EQ(blind_policy->alone(4, 2, together, classes), (std::vector<Numbers>{{1}, {0, 1}}));
+  EXPECT_EQ(blind_policy->alone(5, 2, together, classes), (std::vector<Numbers>{{1, 2}, {0, 1}}));
+  EXPECT_EQ(blind_policy->alone(4, 4, together, classes),
+            (std::vector<Numbers>{{0, 1}, {0, 1}}));  // the last row
+  EXPECT_EQ(blind_policy->alone(4, kForEver, together, classes), (std::vector<Numbers>{{0, 1}, {0, 1}}));
+  EXPECT_EQ(blind_policy->alone(4, 0, together, classes), (std::vector<Numbers>{{}, {}}));
 }
 
 }  // namespace

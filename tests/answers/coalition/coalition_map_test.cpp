@@ -54,7 +54,7 @@ class Found {
     for (const std::string& name : one.partitions)
       coordination.partitions.push_back(parse_partition_name(agents(one.agents), name).value());
     std::vector<const DelayLayers*> all;
-    for (const DelayLayers& own : one.layers) all.push_back(&own);
+    for (const DelayLayers& layers : one.layers) all.push_back(&layers);
     const std::int64_t cells = one.layers[0].layers_of.cells();
     CellSet invariant(1, cells);
     for (std::int64_t c = 0; c < cells; ++c) {
@@ -97,7 +97,7 @@ class Found {
   std::vector<std::string> names_;
 };
 
-using Words = std::vector<std::string>;
+using Labels = std::vector<std::string>;
 
 TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
   const Found found(
@@ -107,9 +107,9 @@ TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
            layers<std::uint16_t>({kNone, kUnbounded, 5, 4, 7, kUnbounded}),
            layers<std::uint8_t>({kNone, 9, 2, 4, 5, 5}), layers<std::uint32_t>({kNone, 5, 0, 4, 4, 3})),
        .horizon = 5});
-  EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "a+b+c", "a+b|c", "a+b|c"}));
+  EXPECT_EQ(found.chosen(), (Labels{"-", "a|b|c", "a+b|c", "a+b+c", "a+b|c", "a+b|c"}));
   // Where a|b+c is as cheap and enough too, neither pair must be together.
-  EXPECT_EQ(found.critical(), (Words{"", "", "ab", "ab ac bc", "", ""}));
+  EXPECT_EQ(found.critical(), (Labels{"", "", "ab", "ab ac bc", "", ""}));
   EXPECT_EQ(found.map().cells, (std::vector<std::int64_t>{1, 3, 0, 1}));
   EXPECT_EQ(found.map().without, 0);
   EXPECT_EQ(found.map().critical_cells, (std::vector<std::int64_t>{2, 1, 1}));
@@ -120,8 +120,8 @@ TEST(CoalitionMap, SaysWhereNoListedPartitionIsEnough) {
                      .layers = several(layers<std::uint8_t>({kNone, 3, kUnbounded, 2}),
                                        layers<std::uint8_t>({kNone, 3, 1, 0})),
                      .horizon = 3});
-  EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "none"}));
-  EXPECT_EQ(found.critical(), (Words{"", "", "ab", ""}));
+  EXPECT_EQ(found.chosen(), (Labels{"-", "a|b|c", "a+b|c", "none"}));
+  EXPECT_EQ(found.critical(), (Labels{"", "", "ab", ""}));
   EXPECT_EQ(found.map().without, 1);
 }
 
@@ -132,21 +132,21 @@ TEST(CoalitionMap, HasTiesInPairsThoughNotInCosts) {
                                        layers<std::uint8_t>({1, 1, 1, 1})),
                      .horizon = 1,
                      .agents = 4});
-  EXPECT_EQ(found.chosen(), (Words{"a+b|c+d", "a+b|c+d", "a+b+c|d", "a+c|b+d"}));
-  EXPECT_EQ(found.critical(), (Words{"", "ab", "ab ac bc", "ac"}));
+  EXPECT_EQ(found.chosen(), (Labels{"a+b|c+d", "a+b|c+d", "a+b+c|d", "a+c|b+d"}));
+  EXPECT_EQ(found.critical(), (Labels{"", "ab", "ab ac bc", "ac"}));
 }
 
 TEST(CoalitionMap, LinksThatCostMoreMakeOtherPairsCritical) {
   Case one{.partitions = {"a+b|c", "a|b+c"},
            .layers = several(layers<std::uint8_t>({1}), layers<std::uint8_t>({1})),
            .horizon = 1};
-  EXPECT_EQ(Found(one).chosen(), Words{"a+b|c"});
-  EXPECT_EQ(Found(one).critical(), Words{""});
+  EXPECT_EQ(Found(one).chosen(), Labels{"a+b|c"});
+  EXPECT_EQ(Found(one).critical(), Labels{""});
   one.link_cost = {{0, 1, Rational(1, 2)}};
-  EXPECT_EQ(Found(one).critical(), Words{"ab"});
+  EXPECT_EQ(Found(one).critical(), Labels{"ab"});
   one.link_cost = {{0, 1, 2}};
-  EXPECT_EQ(Found(one).chosen(), Words{"a|b+c"});
-  EXPECT_EQ(Found(one).critical(), Words{"bc"});
+  EXPECT_EQ(Found(one).chosen(), Labels{"a|b+c"});
+  EXPECT_EQ(Found(one).critical(), Labels{"bc"});
 }
 
 TEST(CoalitionMap, HorizonsAroundTheEndOfEightBits) {
@@ -155,7 +155,7 @@ TEST(CoalitionMap, HorizonsAroundTheEndOfEightBits) {
                        .layers = several(layers<std::uint8_t>({252, 253, kUnbounded})),
                        .horizon = horizon});
     EXPECT_EQ(found.chosen(),
-              (Words{horizon <= 252 ? "a|b|c" : "none", horizon <= 253 ? "a|b|c" : "none", "a|b|c"}));
+              (Labels{horizon <= 252 ? "a|b|c" : "none", horizon <= 253 ? "a|b|c" : "none", "a|b|c"}));
   }
 }
 
@@ -167,15 +167,15 @@ TEST(CoalitionMap, CellsThatMaxDelayCutOffHaveShownThatMuchAndNoMore) {
     return result;
   };
   EXPECT_EQ(Found({.partitions = {"a|b|c"}, .layers = several(cut()), .horizon = 5}).chosen(),
-            (Words{"none", "a|b|c"}));
+            (Labels{"none", "a|b|c"}));
   EXPECT_EQ(Found({.partitions = {"a|b|c"}, .layers = several(cut()), .horizon = 6}).chosen(),
-            (Words{"none", "none"}));
+            (Labels{"none", "none"}));
 }
 
 TEST(CoalitionMap, OneAgentHasNoPairs) {
   const Found found(
       {.partitions = {"a"}, .layers = several(layers<std::uint8_t>({kUnbounded, kNone})), .agents = 1});
-  EXPECT_EQ(found.chosen(), (Words{"a", "-"}));
+  EXPECT_EQ(found.chosen(), (Labels{"a", "-"}));
   EXPECT_TRUE(found.map().pairs.empty());
 }
 
@@ -190,7 +190,7 @@ TEST(CoalitionMap, OfAllPartitionsOfSevenAgents) {
     one.layers.push_back(layers<std::uint8_t>({partition.classes.size() == 1 ? 1 : 0, with_g ? 1 : 0, 1}));
   }
   const Found found(one);
-  EXPECT_EQ(found.chosen(), (Words{"a+b+c+d+e+f+g", "a+g|b|c|d|e|f", "a|b|c|d|e|f|g"}));
+  EXPECT_EQ(found.chosen(), (Labels{"a+b+c+d+e+f+g", "a+g|b|c|d|e|f", "a|b|c|d|e|f|g"}));
   EXPECT_EQ(found.critical()[0].size(), 21U * 3 - 1);
   EXPECT_EQ(found.critical()[1], "");
 }

@@ -27,9 +27,9 @@ TEST(NominalRun, AStateBeyondAllDoublesIsFollowedAsWell) {
   NominalRun run(spec, abstraction);
   const Rational far = whole_power(10, 400) + 1 / whole_power(3, 3000);
   run.start(std::vector<Rational>{far});
-  const NominalRun::Place place = run.after(0, 0);
-  EXPECT_TRUE(place.is_known);
-  EXPECT_EQ(place.kind, Location::Kind::beyond);
+  const NominalRun::Successor successor = run.after(0, 0);
+  EXPECT_TRUE(successor.is_known);
+  EXPECT_EQ(successor.kind, Location::Kind::beyond);
 }
 
 }  // namespace

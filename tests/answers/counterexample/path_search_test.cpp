@@ -18,50 +18,51 @@ class Tree {
   Tree(std::vector<std::string> followed, std::vector<std::string> whole)
       : followed_(std::move(followed)), whole_(std::move(whole)) {}
 
-  [[nodiscard]] std::optional<FollowedState> place() const {
-    if (!is_followed(way_)) return std::nullopt;
-    const auto met = joins_.find(way_);
-    const std::string name = met == joins_.end() ? way_ : met->second;
-    FollowedState place{.cell = static_cast<std::int64_t>(std::hash<std::string>()(name) >> 1),
-                        .phase = 0,
-                        .state = {},
-                        .steps = way_.size()};
-    ways_[{place.steps, place.cell}] = way_;
-    return place;
+  [[nodiscard]] std::optional<FollowedState> position() const {
+    if (!is_followed(path_)) return std::nullopt;
+    const auto joined = joins_.find(path_);
+    const std::string name = joined == joins_.end() ? path_ : joined->second;
+    FollowedState position{.cell = static_cast<std::int64_t>(std::hash<std::string>()(name) >> 1),
+                           .phase = 0,
+                           .state = {},
+                           .steps = path_.size()};
+    paths_[{position.steps, position.cell}] = path_;
+    return position;
   }
-  void go_to(const FollowedState& place) { way_ = ways_.at({place.steps, place.cell}); }
+  void go_to(const FollowedState& position) { path_ = paths_.at({position.steps, position.cell}); }
   std::int64_t step(std::int64_t number) {
     ++steps_;
-    way_ += static_cast<char>('a' + number);
+    path_ += static_cast<char>('a' + number);
     return 1;
   }
   [[nodiscard]] bool has_more() const {
-    std::string next = way_;
+    std::string next = path_;
     return is_followed(next) && is_followed((++next.back(), next));
   }
-  [[nodiscard]] bool is_whole() const { return std::ranges::find(whole_, way_) != whole_.end(); }
+  [[nodiscard]] bool is_whole() const { return std::ranges::find(whole_, path_) != whole_.end(); }
 
   /// Ways that lead to the same place as another one.
-  void join(const std::string& way, const std::string& other) { joins_[way] = other; }
+  void join(const std::string& path, const std::string& other) { joins_[path] = other; }
   [[nodiscard]] int steps() const { return steps_; }
 
  private:
-  [[nodiscard]] bool is_followed(const std::string& way) const {
-    return std::ranges::any_of(followed_, [&](const std::string& own) { return own.starts_with(way); });
+  [[nodiscard]] bool is_followed(const std::string& path) const {
+    return std::ranges::any_of(followed_,
+                               [&](const std::string& prefix) { return prefix.starts_with(path); });
   }
 
   std::vector<std::string> followed_, whole_;
   std::map<std::string, std::string> joins_;
-  mutable std::map<std::pair<std::size_t, std::int64_t>, std::string> ways_;
-  std::string way_;
+  mutable std::map<std::pair<std::size_t, std::int64_t>, std::string> paths_;
+  std::string path_;
   int steps_ = 0;
 };
 
 std::string found(Tree& tree, std::int64_t work = 1000) {
   PathSearch search(work);
-  std::string way;
-  for (const std::int64_t number : search.find(tree)) way += static_cast<char>('a' + number);
-  return way;
+  std::string path;
+  for (const std::int64_t number : search.find(tree)) path += static_cast<char>('a' + number);
+  return path;
 }
 
 TEST(PathSearch, TakesTheLongestWayEvenIfAnotherOneComesFirst) {

@@ -79,7 +79,7 @@ PlainGoal found(const Game& game) {
   EXPECT_EQ(goal.approach[0].sizes, plain.partitions[0].sizes);
   EXPECT_EQ(goal.approach[0].fixed_point_index, plain.partitions[0].fixed_point_index);
   EXPECT_EQ(goal.returns.forced, plain.longest_return);
-  EXPECT_EQ(goal.returns.any_way, plain.longest_gap);
+  EXPECT_EQ(goal.returns.any_choice, plain.longest_gap);
   return plain;
 }
 

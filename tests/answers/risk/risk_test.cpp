@@ -48,9 +48,9 @@ Found find_brink(const Json& spec) {
   const RiskAnswer& answer = fast.answers->get<RiskAnswer>();
   Found found{.risk = {}, .rate = answer.risk.rate, .figures = answer.figures};
   for (const RiskRows& rows : answer.risk.risks) {
-    auto& own = found.risk.emplace_back();
+    auto& risks = found.risk.emplace_back();
     for (std::int64_t x = 0; x < 4; ++x)
-      own.push_back(double{risk_of(rows.row(x / rows.row_length())[x % rows.row_length()])});
+      risks.push_back(double{risk_of(rows.row(x / rows.row_length())[x % rows.row_length()])});
   }
   return found;
 }
@@ -68,7 +68,7 @@ void expect_rate(double found, const Rational& expected) {
   EXPECT_NEAR(found, nearest_double(expected), 1e-6);
 }
 
-Rational parts(long numerator, long denominator) {
+Rational fraction(long numerator, long denominator) {
   Rational result(numerator, denominator);
   result.canonicalize();
   return result;
@@ -76,23 +76,24 @@ Rational parts(long numerator, long denominator) {
 
 TEST(RiskOfABrink, SlackIsWastedWhileAgentsAreConnected) {
   const Found found = find_brink(brink());
-  expect_risks(found.risk[0], {parts(3439, 10000), parts(3439, 10000), parts(271, 1000), parts(19, 100)});
-  expect_rate(found.rate, parts(81, 1000));
+  expect_risks(found.risk[0],
+               {fraction(3439, 10000), fraction(3439, 10000), fraction(271, 1000), fraction(19, 100)});
+  expect_rate(found.rate, fraction(81, 1000));
 }
 
 TEST(RiskOfABrink, OneStepLess) {
   Json spec = brink();
   spec["risk"]["horizon"] = 4;
   const Found found = find_brink(spec);
-  expect_risks(found.risk[0], {parts(271, 1000), parts(271, 1000), parts(19, 100), parts(1, 10)});
-  expect_risks(found.risk[1], {1, parts(271, 1000), parts(19, 100), parts(1, 10)});
+  expect_risks(found.risk[0], {fraction(271, 1000), fraction(271, 1000), fraction(19, 100), fraction(1, 10)});
+  expect_risks(found.risk[1], {1, fraction(271, 1000), fraction(19, 100), fraction(1, 10)});
 }
 
 TEST(RiskOfABrink, WhatIsForbiddenBlocksTheProduct) {
   Json spec = brink();
   spec["controller"]["allow"] = "u1 == u2";
   const Found found = find_brink(spec);
-  const Rational up = parts(3439, 10000);
+  const Rational up = fraction(3439, 10000);
   expect_risks(found.risk[0], {up, up, up, up});
   expect_risks(found.risk[1], {1, 1, 1, 1});
 }
@@ -111,8 +112,9 @@ TEST(RiskOfABrink, TheSafestGiveSlackBack) {
   Json spec = brink();
   spec["risk"]["coordinated"] = "safest";
   const Found found = find_brink(spec);
-  expect_risks(found.risk[0], {parts(59, 5000), parts(1, 1000), parts(1, 10000), parts(1, 10000)});
-  expect_rate(found.rate, parts(81, 50000));
+  expect_risks(found.risk[0],
+               {fraction(59, 5000), fraction(1, 1000), fraction(1, 10000), fraction(1, 10000)});
+  expect_rate(found.rate, fraction(81, 50000));
 }
 
 TEST(RiskOfABrink, BurstsCostMore) {
@@ -120,8 +122,8 @@ TEST(RiskOfABrink, BurstsCostMore) {
   spec["network"]["after_loss"] = 0.5;
   spec["risk"]["coordinated"] = "safest";
   const Found found = find_brink(spec);
-  expect_risks(found.risk[0], {parts(3, 40), parts(1, 40), parts(1, 80), parts(1, 80)});
-  expect_rate(found.rate, parts(3, 160));
+  expect_risks(found.risk[0], {fraction(3, 40), fraction(1, 40), fraction(1, 80), fraction(1, 80)});
+  expect_rate(found.rate, fraction(3, 160));
 }
 
 TEST(RiskOfABrink, TheWorstOfARangeIsItsUpperEnd) {
@@ -132,7 +134,7 @@ TEST(RiskOfABrink, TheWorstOfARangeIsItsUpperEnd) {
   for (std::size_t mode = 0; mode < 2; ++mode) {
     for (std::size_t x = 0; x < 4; ++x) EXPECT_NEAR(range.risk[mode][x], sure.risk[mode][x], 1e-7);
   }
-  expect_rate(range.rate, parts(81, 1000));
+  expect_rate(range.rate, fraction(81, 1000));
 }
 
 TEST(RiskOfABrink, WithoutLossesThereIsNoRisk) {

@@ -32,53 +32,53 @@ SortedJson two_points(const SortedJson& silence) {
   return spec;
 }
 
-/// Where y is 0, by x; and for how many cells each agent is why nobody can do anything.
-struct Told {
+/// Where y is 0, by x; and for how many cells each agent is why no agent can do anything.
+struct Result {
   Silences silence;
   std::vector<std::int64_t> without_action;
 };
 
-Told found(const SortedJson& json) {
+Result found(const SortedJson& json) {
   ThreadTeam team(1);
   const ProblemSpec spec = read_spec(json.dump(), "case");
   const FastAnalysis fast(spec, team);
-  const SilencePartition& own = silence_of(*fast.answers, 0);
-  Told result{{}, own.without_action};
+  const SilencePartition& silence = silence_of(*fast.answers, 0);
+  Result result{{}, silence.without_action};
   for (std::int64_t x = 0; x < fast.safe.cells(); x += 2) {
-    const std::int64_t level = own.layers.layers_of.at(x);
-    result.silence.push_back(level == LevelMap::kTop ? own.layers.top_delay()
+    const std::int64_t level = silence.layers.layers_of.at(x);
+    result.silence.push_back(level == LevelMap::kTop ? silence.layers.top_delay()
                                                      : static_cast<std::int32_t>(level - 1));
   }
   return result;
 }
 
-Silences silence_told(const SortedJson& actions) {
+Silences silence_by(const SortedJson& actions) {
   return found(two_points({{"actions", actions}})).silence;
 }
 
 TEST(SilenceHandCases, EndsWhereAnUnsafeSideIsReached) {
-  EXPECT_EQ(silence_told({{"a", "u == 1"}, {"b", "true"}}), (Silences{4, 3, 2, 1, 0}));
-  EXPECT_EQ(silence_told({{"a", "u >= 0"}, {"b", "true"}}), (Silences{4, 3, 2, 1, 0}));
-  EXPECT_EQ(silence_told({{"a", "true"}, {"b", "true"}}), (Silences{0, 1, 2, 1, 0}));
-  EXPECT_EQ(silence_told({{"a", "u == 0"}, {"b", "true"}}),
+  EXPECT_EQ(silence_by({{"a", "u == 1"}, {"b", "true"}}), (Silences{4, 3, 2, 1, 0}));
+  EXPECT_EQ(silence_by({{"a", "u >= 0"}, {"b", "true"}}), (Silences{4, 3, 2, 1, 0}));
+  EXPECT_EQ(silence_by({{"a", "true"}, {"b", "true"}}), (Silences{0, 1, 2, 1, 0}));
+  EXPECT_EQ(silence_by({{"a", "u == 0"}, {"b", "true"}}),
             (Silences{kForGood, kForGood, kForGood, kForGood, kForGood}));
 }
 
 TEST(SilenceHandCases, ConditionsMayReadWhereTheAgentIs) {
-  EXPECT_EQ(silence_told({{"a", "u == if(x >= 2, 1, -1)"}, {"b", "true"}}), (Silences{0, 1, 2, 1, 0}));
-  EXPECT_EQ(silence_told({{"a", "u == if(x >= 2, -1, 1)"}, {"b", "v == 0"}}),
+  EXPECT_EQ(silence_by({{"a", "u == if(x >= 2, 1, -1)"}, {"b", "true"}}), (Silences{0, 1, 2, 1, 0}));
+  EXPECT_EQ(silence_by({{"a", "u == if(x >= 2, -1, 1)"}, {"b", "v == 0"}}),
             (Silences{kForGood, kForGood, kForGood, kForGood, kForGood}));
 }
 
 TEST(SilenceHandCases, WithoutARuleAnAgentStaysWhereTheControllerKeepsIt) {
-  EXPECT_EQ(silence_told({{"b", "true"}}), (Silences{kForGood, kForGood, kForGood, kForGood, kForGood}));
+  EXPECT_EQ(silence_by({{"b", "true"}}), (Silences{kForGood, kForGood, kForGood, kForGood, kForGood}));
 }
 
 TEST(SilenceHandCases, WhereSomebodyIsToldNothingThereIsNone) {
-  const Told nothing = found(two_points({{"actions", {{"a", "u == 1 and x != 2"}, {"b", "true"}}}}));
+  const Result nothing = found(two_points({{"actions", {{"a", "u == 1 and x != 2"}, {"b", "true"}}}}));
   EXPECT_EQ(nothing.silence, (Silences{2, 1, 0, 1, 0}));
   EXPECT_EQ(nothing.without_action, (std::vector<std::int64_t>{2, 0}));  // y is 0 or 1
-  const Told second = found(two_points({{"actions", {{"a", "u == 1"}, {"b", "v == 0 and (x + y) != 3"}}}}));
+  const Result second = found(two_points({{"actions", {{"a", "u == 1"}, {"b", "v == 0 and (x + y) != 3"}}}}));
   EXPECT_EQ(second.without_action, (std::vector<std::int64_t>{0, 2}));
 }
 

@@ -25,8 +25,8 @@ struct StoredAttributes {
   std::string controller_sha256;  ///< of `controller.file`; empty if the spec has none
 };
 
-/// Everything in a results file but the arrays over cells.
-struct ResultsParts {
+/// Everything in a results file but the arrays of cells.
+struct ResultsMetadata {
   ProblemSpec spec;
   Fields fields;  ///< that the file has
   StoredAttributes attributes;
@@ -40,6 +40,6 @@ struct ResultsParts {
 /// partitions and digest fit the spec (see checked_fields()).
 /// @pre unchecked: it was tried in a child process first (see try_in_child()). @throws hdf5::Failure; as
 /// ResultsReader::ResultsReader()
-[[nodiscard]] ResultsParts read_parts(const ResultsFile& file, std::optional<std::uint64_t> max_memory);
+[[nodiscard]] ResultsMetadata read_metadata(const ResultsFile& file, std::optional<std::uint64_t> max_memory);
 
 }  // namespace coordreq

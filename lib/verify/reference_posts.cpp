@@ -1,8 +1,8 @@
-#include "verify/own_posts.hpp"
+#include "verify/reference_posts.hpp"
 
 #include <algorithm>
 
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 
 namespace coordreq {
 
@@ -22,13 +22,13 @@ PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const I
     table.state_stride[*j] = entries;
     entries *= grid[*j].count;
   }
-  table.places = entry_places(table, grid, inputs, cells);
-  table.entries.resize(cells.empty() ? static_cast<std::size_t>(entries) : table.places.size());
+  table.positions = entry_positions(table, grid, inputs, cells);
+  table.entries.resize(cells.empty() ? static_cast<std::size_t>(entries) : table.positions.size());
   return table;
 }
 
-IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational& lower,
-                     const Rational& upper, bool upper_attained) {
+IndexRange meeting_cells(const GridDimension& dimension, Cells cells, const Rational& lower,
+                         const Rational& upper, bool upper_attained) {
   const Rational half = Rational(1) / 2;
   // In steps: cell k reaches from k - 1/2 to k + 1/2.
   const Rational low = (lower - dimension.first) / dimension.step - half;
@@ -45,9 +45,9 @@ IndexRange with_measurements_at_limits(const GridDimension& dimension, Cells cel
   const Rational low = dimension.first;
   const Rational high = dimension.point(dimension.count - 1);
   if (dimension.below == Outside::saturate)
-    range.last = std::max(range.last, cells_met(dimension, cells, low, low + error, true).last);
+    range.last = std::max(range.last, meeting_cells(dimension, cells, low, low + error, true).last);
   if (dimension.above == Outside::saturate)
-    range.first = std::min(range.first, cells_met(dimension, cells, high - error, high, true).first);
+    range.first = std::min(range.first, meeting_cells(dimension, cells, high - error, high, true).first);
   return range;
 }
 

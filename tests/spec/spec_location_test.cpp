@@ -1,4 +1,4 @@
-#include "spec/spec_place.hpp"
+#include "spec/spec_location.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,31 +45,31 @@ TEST(OffsetOfValue, OfWhatIsNotThereIsNothing) {
 
 TEST(WithPlace, NamesLineAndColumn) {
   const WrittenSpec written{kPlacedText, {}};
-  EXPECT_EQ(with_place("bad (/b/2/1)", written), "bad (/b/2/1; line 2, column 60)");
-  EXPECT_EQ(with_place("bad (/e, column 3)", written), "bad (/e, column 3; line 3, column 35)");
-  EXPECT_EQ(with_place("bad (very) (/e)", written), "bad (very) (/e; line 3, column 35)");
+  EXPECT_EQ(with_location("bad (/b/2/1)", written), "bad (/b/2/1; line 2, column 60)");
+  EXPECT_EQ(with_location("bad (/e, column 3)", written), "bad (/e, column 3; line 3, column 35)");
+  EXPECT_EQ(with_location("bad (very) (/e)", written), "bad (very) (/e; line 3, column 35)");
 }
 
 TEST(WithPlace, LeavesOtherErrorsAsTheyAre) {
   const WrittenSpec written{kPlacedText, {}};
   for (const char* error :
        {"bad", "bad (top level)", "bad (/c)", "bad (file.json, line 1, column 2)", "bad ()"})
-    EXPECT_EQ(with_place(error, written), error);
-  EXPECT_EQ(with_place("bad (/e)", {}), "bad (/e)");
-  EXPECT_EQ(with_place("bad (/e)", {"{ \"e\": ", {}}), "bad (/e)");
+    EXPECT_EQ(with_location(error, written), error);
+  EXPECT_EQ(with_location("bad (/e)", {}), "bad (/e)");
+  EXPECT_EQ(with_location("bad (/e)", {"{ \"e\": ", {}}), "bad (/e)");
 }
 
 TEST(WithPlace, NamesTheLastSettingThatMadeTheValue) {
   const WrittenSpec written{kPlacedText, {{"e", "1"}, {"b.2", "[3, 5]"}, {"e", "2"}, {"refine", "2"}}};
-  EXPECT_EQ(with_place("bad (/e)", written), "bad (/e; set by e=2)");
-  EXPECT_EQ(with_place("bad (/b/2/1)", written), "bad (/b/2/1; set by b.2=[3, 5])");
-  EXPECT_EQ(with_place("bad (/b)", written), "bad (/b; line 2, column 8)");
-  EXPECT_EQ(with_place("bad (/b/1/c)", written), "bad (/b/1/c; line 2, column 18)");
+  EXPECT_EQ(with_location("bad (/e)", written), "bad (/e; set by e=2)");
+  EXPECT_EQ(with_location("bad (/b/2/1)", written), "bad (/b/2/1; set by b.2=[3, 5])");
+  EXPECT_EQ(with_location("bad (/b)", written), "bad (/b; line 2, column 8)");
+  EXPECT_EQ(with_location("bad (/b/1/c)", written), "bad (/b/1/c; line 2, column 18)");
 }
 
 TEST(WithPlaces, KeepsTheNumberOfErrors) {
   const WrittenSpec written{kPlacedText, {}};
-  const auto several = [&] { with_places(written, [] { throw SpecErrors({"one (/a)", "two (/e)"}); }); };
+  const auto several = [&] { with_locations(written, [] { throw SpecErrors({"one (/a)", "two (/e)"}); }); };
   try {
     several();
     FAIL();
@@ -77,8 +77,8 @@ TEST(WithPlaces, KeepsTheNumberOfErrors) {
     EXPECT_EQ(errors.lines(),
               (std::vector<std::string>{"one (/a; line 3, column 8)", "two (/e; line 3, column 35)"}));
   }
-  EXPECT_THROW(with_places(written, [] { throw SpecError("one", "/a"); }), SpecError);
-  EXPECT_EQ(with_places(written, [] { return 3; }), 3);
+  EXPECT_THROW(with_locations(written, [] { throw SpecError("one", "/a"); }), SpecError);
+  EXPECT_EQ(with_locations(written, [] { return 3; }), 3);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "answers/one_cell/action_words.hpp"
+#include "answers/one_cell/action_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,8 +14,8 @@
 
 namespace coordreq {
 
-std::string action_words(const ProblemSpec& spec, const std::vector<std::int32_t>& agents,
-                         const std::vector<bool>& actions) {
+std::string action_text(const ProblemSpec& spec, const std::vector<std::int32_t>& agents,
+                        const std::vector<bool>& actions) {
   REQUIRES(std::find(actions.begin(), actions.end(), true) != actions.end());
   constexpr std::size_t kMostWords = 5;
   const std::vector<std::int32_t> inputs = inputs_of(spec, agents);

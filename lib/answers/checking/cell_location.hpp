@@ -9,7 +9,7 @@
 namespace coordreq {
 
 /// A cell by its centre: "x1 = 0.1, x2 = 0".
-[[nodiscard]] std::string place_of(const UniformGrid& grid, std::int64_t cell);
+[[nodiscard]] std::string location_of(const UniformGrid& grid, std::int64_t cell);
 
 /// The states and inputs that an entry of a table belongs to: "x1 = 0.1, u = 1".
 [[nodiscard]] std::string entry_text(const UniformGrid& grid, const InputSpace& inputs,

@@ -1,4 +1,4 @@
-#include "results/results_parts.hpp"
+#include "results/results_metadata.hpp"
 
 #include <algorithm>
 
@@ -15,33 +15,33 @@
 namespace coordreq {
 namespace {
 
-/// Reads and checks part by part; each function throws ResultsError naming the object.
-class PartsReader {
+/// Reads and checks object by object; each function throws ResultsError naming the object.
+class MetadataReader {
  public:
-  PartsReader(const ResultsFile& file, std::optional<std::uint64_t> max_memory)
+  MetadataReader(const ResultsFile& file, std::optional<std::uint64_t> max_memory)
       : file_(file), max_memory_(max_memory) {}
 
-  ResultsParts read() {
+  ResultsMetadata read() {
     read_header();
     read_spec_text();
-    parts_.fields = checked_fields(file_, parts_.spec, max_memory_);
+    metadata_.fields = checked_fields(file_, metadata_.spec, max_memory_);
     read_found();
-    const SmallFields source(file_, parts_);
-    parts_.partitions = read_partition_values(parts_.spec, source);
+    const SmallFields source(file_, metadata_);
+    metadata_.partitions = read_partition_values(metadata_.spec, source);
     for (const Answer& answer : all_answers()) {
-      if (answer.examine != nullptr) answer.examine(parts_.spec, source);
+      if (answer.examine != nullptr) answer.examine(metadata_.spec, source);
     }
-    if (parts_.spec.output.abstraction) read_tables();
-    return std::move(parts_);
+    if (metadata_.spec.output.abstraction) read_tables();
+    return std::move(metadata_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& object) const {
-    throw ResultsError(what, file_.place(object));
+    throw ResultsError(what, file_.location(object));
   }
 
   void read_header() {
-    StoredAttributes& attributes = parts_.attributes;
+    StoredAttributes& attributes = metadata_.attributes;
     attributes.title = file_.text("/", "title");
     attributes.conventions = file_.text("/", "Conventions");
     attributes.coordreq_version = file_.text("/", "coordreq_version");
@@ -56,13 +56,13 @@ class PartsReader {
     file_.expect_array("/spec", {}, {});
     std::string text = file_.texts("/spec").front();
     const std::string digest = sha256_hex(text);
-    if (digest != parts_.attributes.spec_sha256) {
+    if (digest != metadata_.attributes.spec_sha256) {
       fail("the SHA-256 of the spec is " + digest + ", the attribute spec_sha256 says " +
-               parts_.attributes.spec_sha256,
+               metadata_.attributes.spec_sha256,
            "/spec");
     }
     try {
-      parts_.spec = read_spec(std::move(text), "spec");
+      metadata_.spec = read_spec(std::move(text), "spec");
     } catch (const Error& error) {
       fail(std::string("the spec is not valid: ") + error.what(), "/spec");
     }
@@ -73,21 +73,21 @@ class PartsReader {
   void check_spec_json() const {
     if (!file_.exists("/spec_json")) return;
     file_.expect_array("/spec_json", {}, {});
-    if (file_.texts("/spec_json").front() != without_comments(parts_.spec.text))
+    if (file_.texts("/spec_json").front() != without_comments(metadata_.spec.text))
       fail("expected the spec without its comments, found another text", "/spec_json");
   }
 
   /// Reads the numbers that the analysis has counted.
   void read_found() {
-    for (const Field& field : parts_.fields) {
+    for (const Field& field : metadata_.fields) {
       for (const FieldAttribute& attribute : field.attributes) read_count(field, attribute);
     }
-    StoredAttributes& attributes = parts_.attributes;
-    attributes.safe_cells = parts_.counted.at("/safe").front();
-    attributes.invariant_cells = parts_.counted.at("/invariant").front();
+    StoredAttributes& attributes = metadata_.attributes;
+    attributes.safe_cells = metadata_.counted.at("/safe").front();
+    attributes.invariant_cells = metadata_.counted.at("/invariant").front();
     attributes.iterations = file_.integer("/collision_time", "iterations");
     attributes.connection_delay = file_.integer("/trigger", "connection_delay");
-    if (parts_.spec.controller.file) attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
+    if (metadata_.spec.controller.file) attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
   }
 
   /// A list may be missing.
@@ -98,15 +98,15 @@ class PartsReader {
       count = list->size();
       if (count == 0 || !file_.has(field.path, "cells")) return;
     }
-    parts_.counted[field.path] = file_.naturals(field.path, "cells", count);
+    metadata_.counted[field.path] = file_.naturals(field.path, "cells", count);
   }
 
   /// Reads the dependencies of each state, from the axes of its table.
   void read_tables() {
-    const ProblemSpec& spec = parts_.spec;
-    for (const Field& field : parts_.fields) {
+    const ProblemSpec& spec = metadata_.spec;
+    for (const Field& field : metadata_.fields) {
       if (field.section != FieldSection::abstraction || !field.path.ends_with("/first")) continue;
-      TransitionTable& table = parts_.tables.emplace_back();
+      TransitionTable& table = metadata_.tables.emplace_back();
       const auto is_axis = [&field](const std::string& name) {
         return std::find(field.axes.begin(), field.axes.end(), "/" + name) != field.axes.end();
       };
@@ -121,13 +121,13 @@ class PartsReader {
 
   const ResultsFile& file_;
   std::optional<std::uint64_t> max_memory_;
-  ResultsParts parts_;
+  ResultsMetadata metadata_;
 };
 
 }  // namespace
 
-ResultsParts read_parts(const ResultsFile& file, std::optional<std::uint64_t> max_memory) {
-  return PartsReader(file, max_memory).read();
+ResultsMetadata read_metadata(const ResultsFile& file, std::optional<std::uint64_t> max_memory) {
+  return MetadataReader(file, max_memory).read();
 }
 
 }  // namespace coordreq

@@ -31,19 +31,19 @@ struct WrittenSpec {
 /// An error "WHAT (WHERE)" with the line and column in WHERE: "expected ... (/states/0/step; line 7, column
 /// 42)", or what has set the value: "(/states/0/step; set by states.0.step=0)". As it is where WHERE is no
 /// JSON pointer, or that of no value in the text.
-[[nodiscard]] std::string with_place(const std::string& error, const WrittenSpec& written);
+[[nodiscard]] std::string with_location(const std::string& error, const WrittenSpec& written);
 
 /// Runs `work` and returns its result. @throws SpecError, SpecErrors with places instead of those without
 template <class Work>
-auto with_places(const WrittenSpec& written, const Work& work) {
+auto with_locations(const WrittenSpec& written, const Work& work) {
   try {
     return work();
   } catch (const SpecErrors& errors) {
     std::vector<std::string> lines;
-    for (const std::string& line : errors.lines()) lines.push_back(with_place(line, written));
+    for (const std::string& line : errors.lines()) lines.push_back(with_location(line, written));
     throw SpecErrors(std::move(lines));
   } catch (const SpecError& error) {
-    throw SpecError(with_place(error.what(), written));
+    throw SpecError(with_location(error.what(), written));
   }
 }
 

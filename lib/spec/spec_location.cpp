@@ -1,4 +1,4 @@
-#include "spec/spec_place.hpp"
+#include "spec/spec_location.hpp"
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@ namespace {
 using Pointer = Json::json_pointer;
 
 /// Goes through the tokens of a text.
-class PlaceWalk {
+class ValueWalk {
  public:
-  explicit PlaceWalk(std::string_view text) : json_{text, ""} { go_to(0); }
+  explicit ValueWalk(std::string_view text) : json_{text, ""} { go_to(0); }
 
   [[nodiscard]] std::size_t offset() const { return offset_; }
 
@@ -76,9 +76,9 @@ std::string pointer_in(std::string_view where) {
 
 /// The last setting that has made the value what it is, or null.
 const SpecSetting* setting_of(const WrittenSpec& written, const std::string& pointer) {
-  for (auto own = written.settings.rbegin(); own != written.settings.rend(); ++own) {
-    const std::optional<std::string> set = pointer_of_setting(written.text, *own);
-    if (set && (pointer == *set || pointer.rfind(*set + "/", 0) == 0)) return &*own;
+  for (auto setting = written.settings.rbegin(); setting != written.settings.rend(); ++setting) {
+    const std::optional<std::string> set = pointer_of_setting(written.text, *setting);
+    if (set && (pointer == *set || pointer.rfind(*set + "/", 0) == 0)) return &*setting;
   }
   return nullptr;
 }
@@ -90,7 +90,7 @@ WrittenSpec written_spec(const ProblemSpec& spec) {
 }
 
 std::optional<std::size_t> offset_of_value(std::string_view text, std::string_view pointer) {
-  PlaceWalk walk(text);
+  ValueWalk walk(text);
   try {
     for (const std::string& key : keys_of(pointer)) {
       if (!walk.enter(key)) return std::nullopt;
@@ -101,7 +101,7 @@ std::optional<std::size_t> offset_of_value(std::string_view text, std::string_vi
   return walk.offset();
 }
 
-std::string with_place(const std::string& error, const WrittenSpec& written) {
+std::string with_location(const std::string& error, const WrittenSpec& written) {
   const std::size_t begin = error.rfind(" (");
   if (written.text.empty() || begin == std::string::npos || error.back() != ')') return error;
   const std::string_view where = std::string_view(error).substr(begin + 2, error.size() - begin - 3);
@@ -109,11 +109,11 @@ std::string with_place(const std::string& error, const WrittenSpec& written) {
   // A text that is no JSON has no pointers, but its path may look like one.
   if (pointer.empty() || !is_json(written.text, JsonComments::skipped)) return error;
   const std::string before = error.substr(0, error.size() - 1);
-  if (const SpecSetting* const own = setting_of(written, pointer); own != nullptr)
-    return fmt::format("{}; set by {}={})", before, own->path, own->value);
+  if (const SpecSetting* const setting = setting_of(written, pointer); setting != nullptr)
+    return fmt::format("{}; set by {}={})", before, setting->path, setting->value);
   const std::string_view text = without_byte_order_mark(written.text);
   const std::optional<std::size_t> offset = offset_of_value(text, pointer);
-  return offset ? fmt::format("{}; {})", before, JsonText{text, ""}.place(*offset)) : error;
+  return offset ? fmt::format("{}; {})", before, JsonText{text, ""}.position(*offset)) : error;
 }
 
 }  // namespace coordreq

@@ -1,4 +1,4 @@
-#include "answers/checking/cell_place.hpp"
+#include "answers/checking/cell_location.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ std::string short_text(const Rational& value) {
 
 }  // namespace
 
-std::string place_of(const UniformGrid& grid, std::int64_t cell) {
+std::string location_of(const UniformGrid& grid, std::int64_t cell) {
   std::string text;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", grid[i].name,

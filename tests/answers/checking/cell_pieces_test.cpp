@@ -1,4 +1,4 @@
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -19,24 +19,24 @@ GridDimension ring(std::int64_t count, Rational error = 0) {
   return dimension;
 }
 
-bool is(const RationalInterval& part, const Rational& lower, const Rational& upper) {
-  return part.lower == lower && part.upper == upper;
+bool is(const RationalInterval& piece, const Rational& lower, const Rational& upper) {
+  return piece.lower == lower && piece.upper == upper;
 }
 
 TEST(CellParts, ACellOnTheSeamHasTwoParts) {
-  const auto parts = parts_of(ring(10), 0);
-  ASSERT_EQ(parts.size(), 2U);
-  EXPECT_TRUE(is(parts[0], Rational(19, 2), 10));
-  EXPECT_TRUE(is(parts[1], 0, Rational(1, 2)));
-  EXPECT_EQ(parts_of(ring(10), 3).size(), 1U);
+  const auto pieces = pieces_of(ring(10), 0);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_TRUE(is(pieces[0], Rational(19, 2), 10));
+  EXPECT_TRUE(is(pieces[1], 0, Rational(1, 2)));
+  EXPECT_EQ(pieces_of(ring(10), 3).size(), 1U);
 }
 
 TEST(CellParts, ThePointOnTheSeamIsSeenAsTheLowerEnd) {
-  const auto ends_there = parts_of(ring(10, Rational(1, 2)), 9);
+  const auto ends_there = pieces_of(ring(10, Rational(1, 2)), 9);
   ASSERT_EQ(ends_there.size(), 2U);
   EXPECT_TRUE(is(ends_there[0], 8, 10));
   EXPECT_TRUE(is(ends_there[1], 0, 0));
-  const auto begins_there = parts_of(ring(10, Rational(1, 2)), 1);
+  const auto begins_there = pieces_of(ring(10, Rational(1, 2)), 1);
   ASSERT_EQ(begins_there.size(), 1U);
   EXPECT_TRUE(is(begins_there[0], 0, 2));
 }
@@ -44,8 +44,8 @@ TEST(CellParts, ThePointOnTheSeamIsSeenAsTheLowerEnd) {
 TEST(CellParts, ALimitCutsTheCellBesideIt) {
   GridDimension line{.name = "x", .first = 0, .step = 2, .count = 3};
   line.below = Outside::stop;
-  EXPECT_TRUE(is(parts_of(line, 0).front(), 0, 1));
-  EXPECT_TRUE(is(parts_of(line, 2).front(), 3, 5));
+  EXPECT_TRUE(is(pieces_of(line, 0).front(), 0, 1));
+  EXPECT_TRUE(is(pieces_of(line, 2).front(), 3, 5));
 }
 
 TEST(CellParts, TheArcThatHoldsBothIsTheShortest) {
@@ -78,13 +78,13 @@ TEST(CellParts, AreThoseOfTheAnalysis) {
       const Outside sides[] = {Outside::unsafe, Outside::stop, Outside::saturate};
       dimension.below = sides[pick(0, 2)];
       dimension.above = sides[pick(0, 2)];
-      dimension.stretch_above = pick(0, 2);
+      dimension.extension_above = pick(0, 2);
     }
     const std::int64_t k = pick(0, static_cast<int>(dimension.count) - 1);
-    const std::vector<RationalInterval> own = parts_of(dimension, k);
+    const std::vector<RationalInterval> ours = pieces_of(dimension, k);
     const std::vector<Piece> theirs = pieces(dimension, k);
-    RC_ASSERT(own.size() == theirs.size());
-    for (std::size_t i = 0; i < own.size(); ++i) RC_ASSERT(is(own[i], theirs[i].lower, theirs[i].upper));
+    RC_ASSERT(ours.size() == theirs.size());
+    for (std::size_t i = 0; i < ours.size(); ++i) RC_ASSERT(is(ours[i], theirs[i].lower, theirs[i].upper));
     const auto range = [&] {
       const int first = pick(-40, 40);
       return IndexRange{first, first + pick(0, 14)};

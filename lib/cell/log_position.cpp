@@ -1,4 +1,4 @@
-#include "cell/log_place.hpp"
+#include "cell/log_position.hpp"
 
 #include <algorithm>
 
@@ -19,37 +19,37 @@ std::int64_t nearest_index(const GridDimension& dimension, const Rational& value
 Rational snapped(const GridDimension& dimension, const Rational& value) {
   if (!dimension.discrete) return value;
   const Rational point = dimension.point(nearest_index(dimension, value));
-  return abs(value - point) <= LogPlaces::slack(value, dimension.step) ? point : value;
+  return abs(value - point) <= LogLocator::slack(value, dimension.step) ? point : value;
 }
 
 }  // namespace
 
-LogPlaces::LogPlaces(const SystemSpec& spec, CellPosts& posts) : spec_(spec), posts_(posts) {
+LogLocator::LogLocator(const SystemSpec& spec, CellPosts& posts) : spec_(spec), posts_(posts) {
   for (const GridDimension& dimension : posts.grid().dimensions())
     axes_.emplace_back(std::vector<GridDimension>{dimension});
 }
 
-Rational LogPlaces::slack(const Rational& value, const Rational& step) {
+Rational LogLocator::slack(const Rational& value, const Rational& step) {
   static const Rational kShare(1, 10'000'000);
   const Rational most = step / 4;  // of values that are large beside their step
   return std::min<Rational>(most, kShare * std::max<Rational>(abs(value), step));
 }
 
-LogPlace LogPlaces::place(const LogRow& row, const std::vector<std::int64_t>& before) {
+LogPosition LogLocator::position(const LogRow& row, const std::vector<std::int64_t>& before) {
   const UniformGrid& grid = posts_.grid();
   const std::vector<Indices> kept = kept_after(row, before);
-  LogPlace place{.state = row.state};
+  LogPosition position{.state = row.state};
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    if (!row.is_given[i]) place.state[i] = grid[i].point(kept.front()[i]);
-    place.state[i] = snapped(grid[i], place.state[i]);
-    place.indices.push_back(indices(i, place.state[i]));
+    if (!row.is_given[i]) position.state[i] = grid[i].point(kept.front()[i]);
+    position.state[i] = snapped(grid[i], position.state[i]);
+    position.indices.push_back(indices(i, position.state[i]));
   }
-  place.location = locate(grid, place.state);
-  for (const Indices& indices : kept) add_cells(place, row.is_given, indices);
-  return place;
+  position.location = locate(grid, position.state);
+  for (const Indices& indices : kept) add_cells(position, row.is_given, indices);
+  return position;
 }
 
-LogPlaces::Indices LogPlaces::indices(std::size_t i, const Rational& value) const {
+LogLocator::Indices LogLocator::indices(std::size_t i, const Rational& value) const {
   const GridDimension& dimension = posts_.grid()[i];
   const auto index = [&](const Rational& near) { return locate(axes_[i], std::span(&near, 1)); };
   const Location location = index(value);
@@ -63,26 +63,28 @@ LogPlaces::Indices LogPlaces::indices(std::size_t i, const Rational& value) cons
 }
 
 /// [alternative][dimension] indices of what memories keep, where the log does not say them.
-std::vector<LogPlaces::Indices> LogPlaces::kept_after(const LogRow& row,
-                                                      const std::vector<std::int64_t>& before) {
+std::vector<LogLocator::Indices> LogLocator::kept_after(const LogRow& row,
+                                                        const std::vector<std::int64_t>& before) {
   std::vector<Indices> kept;
   for (const std::int64_t cell : before) {
-    Indices own(row.state.size(), 0);
+    Indices alternative(row.state.size(), 0);
     posts_.move_to(cell);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      if (!row.is_given[i]) own[i] = posts_.raw(i, 0).first;
+    for (std::size_t i = 0; i < alternative.size(); ++i) {
+      if (!row.is_given[i]) alternative[i] = posts_.raw(i, 0).first;
     }
-    if (std::find(kept.begin(), kept.end(), own) == kept.end()) kept.push_back(std::move(own));
+    if (std::find(kept.begin(), kept.end(), alternative) == kept.end())
+      kept.push_back(std::move(alternative));
   }
   if (kept.empty()) kept.emplace_back(row.state.size(), 0);
   return kept;
 }
 
-void LogPlaces::add_cells(LogPlace& place, const std::vector<bool>& is_given, const Indices& kept) const {
+void LogLocator::add_cells(LogPosition& position, const std::vector<bool>& is_given,
+                           const Indices& kept) const {
   const UniformGrid& grid = posts_.grid();
   Indices cells = {0};
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Indices& indices = is_given[i] ? place.indices[i] : Indices{kept[i]};
+    const Indices& indices = is_given[i] ? position.indices[i] : Indices{kept[i]};
     Indices longer;
     for (const std::int64_t cell : cells) {
       for (const std::int64_t k : indices) {
@@ -91,7 +93,7 @@ void LogPlaces::add_cells(LogPlace& place, const std::vector<bool>& is_given, co
     }
     cells = std::move(longer);
   }
-  for (const std::int64_t cell : cells) add_new(place.cells, cell);
+  for (const std::int64_t cell : cells) add_new(position.cells, cell);
 }
 
 }  // namespace coordreq

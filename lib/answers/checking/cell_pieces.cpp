@@ -1,4 +1,4 @@
-#include "answers/checking/cell_parts.hpp"
+#include "answers/checking/cell_pieces.hpp"
 
 #include <algorithm>
 
@@ -18,8 +18,8 @@ std::int64_t in_ring(std::int64_t index, std::int64_t count) {
 RationalInterval within_limits(const GridDimension& dimension, std::int64_t k, RationalInterval cell) {
   const bool is_first = k == 0;
   const bool is_last = k + 1 == dimension.count;
-  if (is_first) cell.lower -= dimension.stretch_below;
-  if (is_last) cell.upper += dimension.stretch_above;
+  if (is_first) cell.lower -= dimension.extension_below;
+  if (is_last) cell.upper += dimension.extension_above;
   const Rational bottom = dimension.first;
   const Rational top = dimension.point(dimension.count - 1);
   if (dimension.below == Outside::stop && cell.lower < bottom) cell.lower = bottom;
@@ -34,7 +34,7 @@ bool goes_round(IndexRange range, std::int64_t count) {
 
 }  // namespace
 
-std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int64_t k) {
+std::vector<RationalInterval> pieces_of(const GridDimension& dimension, std::int64_t k) {
   REQUIRES(0 <= k && k < dimension.count);
   const Rational reach = dimension.radius() + dimension.measurement_error;
   const RationalInterval cell{.lower = dimension.point(k) - reach, .upper = dimension.point(k) + reach};
@@ -43,7 +43,7 @@ std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int6
   const Rational& top = dimension.upper;
   const Rational period = top - bottom;
   if (cell.upper - cell.lower >= period) return {{.lower = bottom, .upper = top}};
-  std::vector<RationalInterval> parts;
+  std::vector<RationalInterval> pieces;
   // The copy that ends at or beyond `lower` for the first time, and those after it.
   for (std::int64_t turn = ceil_to_int((bottom - cell.upper) / period);; ++turn) {
     const Rational by = period * Rational(static_cast<long>(turn));
@@ -51,11 +51,11 @@ std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int6
     if (copy.lower >= top) break;
     copy.lower = std::max(copy.lower, bottom);
     copy.upper = std::min(copy.upper, top);
-    parts.push_back(std::move(copy));
+    pieces.push_back(std::move(copy));
   }
   // The part next to `upper` comes first along the cell.
-  std::reverse(parts.begin(), parts.end());
-  return parts;
+  std::reverse(pieces.begin(), pieces.end());
+  return pieces;
 }
 
 IndexRange cut_to_range(const GridDimension& dimension, std::int64_t first, std::int64_t last) {

@@ -18,8 +18,8 @@ namespace coordreq {
                                     const Influences& influences, const std::vector<std::int64_t>& cells);
 
 /// Raw indices of the cells that meet [lower, upper] (contract, "Cells"); the upper end alone may be missing.
-[[nodiscard]] IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational& lower,
-                                   const Rational& upper, bool upper_attained);
+[[nodiscard]] IndexRange meeting_cells(const GridDimension& dimension, Cells cells, const Rational& lower,
+                                       const Rational& upper, bool upper_attained);
 
 /// A state that saturates is at its limit when it is measured, however far beyond it went, and its
 /// measurement may be off into another cell than the boundary one: adds those cells.
@@ -34,11 +34,11 @@ namespace coordreq {
                                                     const InputSpace& inputs, std::size_t state,
                                                     const std::vector<std::int64_t>& cells, ThreadTeam& team);
 
-/// An entry of tubes_between_ends() that the ends do not tell.
+/// An entry of tubes_between_ends() that the ends do not determine.
 constexpr IndexRange kUnknownTube{INT32_MAX, INT32_MIN};
 
-/// The tubes that the ends of the motion tell: of a state that is stopped itself, or moves in one direction
-/// while limits stop others. Each entry as of cells_needed(), or kUnknownTube.
+/// The tubes that the ends of the motion determine: of a state that is stopped itself, or moves in one
+/// direction while limits stop others. Each entry as of cells_needed(), or kUnknownTube.
 /// @returns nothing if no entry is known
 [[nodiscard]] std::optional<PostTable> tubes_between_ends(const SystemSpec& spec, const UniformGrid& grid,
                                                           const InputSpace& inputs, std::size_t state,
