@@ -35,14 +35,14 @@ void read_disturbance(SimulationOptions& simulation, const std::string& text, co
     simulation.disturbance = kKinds(text, option);
   } else {
     simulation.disturbance = Disturbance::constant;
-    simulation.constant_disturbance = named_values(text, option);
+    simulation.disturbance_values = named_values(text, option);
   }
 }
 
 void check_complete(const SimulateOptions& options) {
-  if (options.simulation.start && options.starts_anywhere)
+  if (options.simulation.from && options.starts_anywhere)
     throw UsageError("expected --from or --start, found both");
-  if (!options.simulation.start && !options.starts_anywhere)
+  if (!options.simulation.from && !options.starts_anywhere)
     throw UsageError("no start, expected --from NAME=VALUE,... or --start random");
   if (!options.steps) throw UsageError("no number of steps, expected --steps N");
 }
@@ -101,7 +101,7 @@ Run declare_simulate(Options& options) {
   const auto args = std::make_shared<SimulateOptions>();
   SimulationOptions& simulation = args->simulation;
   declare_results(options, args->results);
-  options.option(simulation.start, "--from", "STATE", "State to start from, e.g. x1=0.1,x2=0", as_typed);
+  options.option(simulation.from, "--from", "STATE", "State to start from, e.g. x1=0.1,x2=0", as_typed);
   options.option(args->starts_anywhere, "--start", "random", "Start at random states of the invariance set",
                  OneOf<bool>{{{"random", true}}});
   options.option(args->steps, "--steps", "N", "Length of a run: steps, or a time, e.g. 10min", as_typed);

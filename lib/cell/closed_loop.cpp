@@ -94,7 +94,7 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
     : problem_(problem),
       options_(options),
       dynamics_(*problem.spec),
-      schedule_(make_schedule(problem, options.policy, options.silent_steps, dynamics_, controller_)),
+      schedule_(make_schedule(problem, options.policy, options.silent_steps.value_or(kUnbounded), dynamics_, controller_)),
       next_(*problem.spec, *problem.abstraction, dynamics_),
       margin_(problem.spec->safe),
       slots_(problem.spec->slot_count()),

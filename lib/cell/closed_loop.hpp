@@ -6,28 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "answers/step_codes.hpp"
 #include "base/thread_team.hpp"
 #include "cell/action_choice.hpp"
 #include "cell/schedule.hpp"
 
 namespace coordreq {
-
-struct LoopOptions {
-  std::int64_t steps = 0;
-  Policy policy = Policy::random;
-  Disturbance disturbance = Disturbance::random;
-  std::vector<Rational> constant_disturbance;  ///< one a disturbance; used if constant
-  std::uint64_t seed = 1;
-  bool until_goal = false;  ///< a run ends where it reaches the goal, as it does if the spec says so
-  /// Agents who do as they are told are silent for so many steps (kUnbounded: until S is left), and then
-  /// comes what comes after.
-  std::int64_t silent_steps = kUnbounded;
-  // Of simulate_runs() alone:
-  std::int64_t runs = 1;
-  /// The measured state that every run starts from; none: uniform over K, drawn for each run.
-  std::optional<std::vector<Rational>> start = {};
-};
 
 /// The self-triggered closed loop on the system itself (paper, Definition 3), measured into cells [a, b).
 ///

@@ -217,15 +217,9 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   const ProblemSpec& spec = results.spec();
   const std::size_t partition = partition_of_loop(spec, options);
   check_options(spec, options);
-  LoopOptions runs{.steps = options.steps,
-                   .policy = options.policy,
-                   .disturbance = options.disturbance,
-                   .constant_disturbance = constant_disturbance(spec, options.constant_disturbance),
-                   .seed = options.seed,
-                   .until_goal = options.until_goal,
-                   .silent_steps = options.silent_steps.value_or(kUnbounded),
-                   .runs = options.runs};
-  if (options.start) runs.start = start_state(results, *options.start);
+  LoopOptions loop = options;
+  loop.constant_disturbance = constant_disturbance(spec, options.disturbance_values);
+  if (options.from) loop.start = start_state(results, *options.from);
   const auto enter = [&options](const char* stage) {
     if (options.entered) options.entered(stage);
   };
@@ -242,8 +236,8 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
                       .values = {},
                       .connection_delay = spec.coordination.connection_delay};
   for (const auto& [path, cells] : values) problem.values[path] = cells;
-  if (runs.start) {
-    check_start(results, *runs.start, problem.start_steps(), options.silent);
+  if (loop.start) {
+    check_start(results, *loop.start, problem.start_steps(), options.silent);
   } else if (!has_start(spec, problem.start_steps())) {
     throw UsageError(spec.memory.empty()
                          ? "the invariance set is empty: there is no state to start from"
@@ -270,10 +264,10 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   if (options.is_lossy) problem.network = &network.emplace(*spec.network);
   for (const auto& of_mode : risks) problem.mode_values.emplace_back(of_mode.begin(), of_mode.end());
   std::optional<double> risk;
-  if (options.is_lossy && spec.risk && runs.start)
-    risk = risk_of_runs(results, locate(results.grid(), *runs.start).cell, options.steps);
+  if (options.is_lossy && spec.risk && loop.start)
+    risk = risk_of_runs(results, locate(results.grid(), *loop.start).cell, options.steps);
   Simulation simulation{.partition = options.is_lossy ? "" : problem.partition->name,
-                        .traces = simulate_runs(problem, runs, team),
+                        .traces = simulate_runs(problem, loop, team),
                         .risk = risk};
   if (options.output) {
     enter("writing");

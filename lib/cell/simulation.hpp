@@ -30,25 +30,34 @@ enum class Disturbance : std::uint8_t {
 
 using NamedValues = std::vector<std::pair<std::string, Rational>>;
 
-struct SimulationOptions {
-  std::optional<std::string> start;  ///< as parse_state() reads it; none: uniform over K
-  std::string partition;             ///< given or canonical name; empty: the only one
+/// What the closed loop does, whichever answers it follows.
+struct LoopOptions {
   std::int64_t steps = 0;
-  std::int64_t runs = 1;
   Policy policy = Policy::random;
   Disturbance disturbance = Disturbance::random;
-  NamedValues constant_disturbance;  ///< those not named are in the middle of their ranges
+  std::vector<Rational> constant_disturbance;  ///< one value per disturbance; used if constant
   std::uint64_t seed = 1;
-  bool until_goal = false;  ///< runs end where they reach the goal
-  bool is_lossy = false;    ///< steps are lost as the numbers of the network say
-  bool blind = false;       ///< silent agents go by what they see themselves
-  /// Silent agents do what the spec tells them, for `silent_steps` steps and then what comes after; none: for
-  /// ever.
-  bool silent = false;
-  std::optional<std::int64_t> silent_steps;
+  std::int64_t runs = 1;
+  bool until_goal = false;  ///< a run ends where it reaches the goal, as it does if the spec says so
+  /// Agents under the communication-loss rule are silent for this many steps, and then follow the fallback
+  /// rule; none: they are silent until S is left.
+  std::optional<std::int64_t> silent_steps = {};
+  /// The measured state that every run starts from; none: uniform over K, drawn for each run.
+  std::optional<std::vector<Rational>> start = {};
+};
+
+/// LoopOptions with what is resolved by a results file: simulate() sets `start` and `constant_disturbance`
+/// from the values given here.
+struct SimulationOptions : LoopOptions {
+  std::optional<std::string> from;  ///< start as parse_state() reads it; none: uniform over K
+  NamedValues disturbance_values;   ///< if constant; those not named are in the middle of their ranges
+  std::string partition;            ///< given or canonical name; empty: the only one
+  bool is_lossy = false;            ///< steps are lost with the probabilities of the network
+  bool blind = false;               ///< agents without communication use only the states that they observe
+  bool silent = false;              ///< agents follow the communication-loss rule
   std::optional<std::string> output;  ///< path of the file of runs
-  /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
-  /// "running". May be empty.
+  /// Called with the name of each stage when it begins: "checking", "running", "writing"; there are temporary
+  /// files in all but "running". May be empty.
   std::function<void(const std::string& stage)> entered;
 };
 

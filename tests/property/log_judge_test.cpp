@@ -96,7 +96,10 @@ void expect_runs_are_fine(const std::string& spec, ThreadTeam& team) {
   if (is_empty) return;
   std::size_t most = 0;
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    SimulationOptions options{.partition = results.partitions()[p].name, .steps = 10, .runs = 3};
+    SimulationOptions options;
+    options.partition = results.partitions()[p].name;
+    options.steps = 10;
+    options.runs = 3;
     options.policy = p % 2 == 0 ? Policy::random : Policy::adversarial;
     options.disturbance = p % 3 == 0 ? Disturbance::extremes : Disturbance::random;
     options.seed = p;
