@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 
-from program import CONFIGS, PROGRAM, ROOT, SPEC, Case, spec_with, without_comments
+from program import CONFIGS, PROGRAM, ROOT, SPEC, Case, spec_with, without_comments, without_warnings
 
 X, Y = SPEC["states"]
 
@@ -517,10 +517,12 @@ class Cases(Case):
         with h5py.File(self.folder / "warned.h5") as file:
             self.assertNotIn("warning", " ".join(file))
 
-    def test_the_examples_have_no_warnings_but_those_that_they_speak_of(self):
+    def test_the_examples_are_valid_and_have_no_warnings_but_those_that_they_speak_of(self):
         for path in sorted([*CONFIGS.glob("*.json"), *CONFIGS.glob("tutorial/*.json")]):
             with self.subTest(path.name):
                 result = self.run_program("validate", str(path), "--json")
+                self.assertEqual((result.returncode, without_warnings(result.stderr)), (0, b""))
+                self.assertEqual(json.loads(result.stdout)["name"], path.stem)
                 found = [own["kind"] for own in json.loads(result.stdout)["warnings"]]
                 # The first step of the tutorial says nothing of the walls, and the second one explains it.
                 expected = ["blocked"] if path.name == "corridor_1.json" else []

@@ -11,14 +11,6 @@ EXAMPLES = sorted(CONFIGS.glob("*.json"))
 
 
 class Cases(Case):
-    def test_every_example_is_valid(self):
-        self.assertGreaterEqual(len(EXAMPLES), 3)
-        for path in EXAMPLES:
-            with self.subTest(example=path.name):
-                result = self.run_program("validate", str(path))
-                self.assertEqual((result.returncode, without_warnings(result.stderr)), (0, b""))
-                self.assertTrue(result.stdout.decode().startswith(f"{path.stem}: the spec is valid\n"))
-
     def test_every_example_says_what_it_shows(self):
         for path in EXAMPLES:
             with self.subTest(example=path.name):

@@ -216,7 +216,7 @@ TEST(Tube, ThereIsNoneUnlessAskedFor) {
 /// States that move each other share a flow: each gets the tube that it would have got alone.
 TEST(Tube, IsTheSameFromASharedFlow) {
   const std::string coarse =
-      R"({"name": "x", "lower": -2, "upper": 2, "step": 1}, {"name": "y", "lower": -2, "upper": 2, "step": 1})";
+      R"({"name": "x", "lower": -1, "upper": 1, "step": 1}, {"name": "y", "lower": -1, "upper": 1, "step": 1})";
   const std::string heading =
       R"({"name": "h", "lower": "-pi", "upper": "pi", "count": 4, "outside": "periodic"})";
   const SystemSpec spec = flow(coarse + ", " + heading,
