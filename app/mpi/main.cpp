@@ -17,6 +17,7 @@ void obey_signals(bool is_first) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  coordreq::share_heaps();
   coordreq::hold_standard_streams();
   coordreq::report_what_terminates();
   coordreq::MpiRanks ranks(argc, argv);

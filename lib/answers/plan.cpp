@@ -14,6 +14,7 @@
 #include "answers/requirements/answer.hpp"
 #include "answers/risk/answer.hpp"
 #include "answers/silence/answer.hpp"
+#include "base/process_memory.hpp"
 
 namespace coordreq {
 
@@ -56,6 +57,7 @@ void run_stages(const std::vector<Stage>& stages, Answers& answers, const StageW
     StageWork inner_work = work;
     inner_work.store = watch.store ? watch.store(stage.name) : nullptr;
     stage.run(answers, inner_work);
+    give_back_memory();
   }
 }
 

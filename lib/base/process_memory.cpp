@@ -1,5 +1,6 @@
 #include "base/process_memory.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -45,6 +46,17 @@ std::int64_t untouched_bytes() {
 }
 
 }  // namespace
+
+void share_heaps() {
+#if defined(M_ARENA_MAX)
+  constexpr int kHeaps = 4;
+  mallopt(M_ARENA_MAX, kHeaps);
+#endif
+}
+
+void give_back_memory() {
+  malloc_trim(0);
+}
 
 double memory_of_program() {
   return static_cast<double>(status_bytes("RssAnon")) + bytes_of_files() + kProgramBytes;

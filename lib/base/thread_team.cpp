@@ -11,34 +11,9 @@
 #include <vector>
 
 #include "base/process_memory.hpp"
+#include "base/short_wait.hpp"
 
 namespace coordreq {
-
-/// Waits a little while for what is about to happen: loops often follow one another within microseconds, and
-/// waking a thread that sleeps takes longer than that. Then gives up, to leave the core to others; the
-/// sooner, the more often it has waited in vain, as where others want the core.
-class ShortWait {
- public:
-  template <class Condition>
-  bool comes_soon(const Condition& condition) {
-    for (int i = 0; i < looks_; ++i) {
-      if (condition()) {
-        looks_ = std::min(2 * looks_, kMostLooks);
-        return true;
-      }
-#if defined(__x86_64__)
-      __builtin_ia32_pause();
-#endif
-    }
-    looks_ = std::max(looks_ / 2, kLeastLooks);
-    return condition();
-  }
-
- private:
-  static constexpr int kLeastLooks = 1000;
-  static constexpr int kMostLooks = 4000;
-  int looks_ = kMostLooks;
-};
 
 struct ThreadTeam::State {
   std::mutex mutex;

@@ -53,7 +53,7 @@ std::vector<std::uint8_t> action_bits(const Controller& controller, const Action
     RowPlace place(controller.engine->grid(), first_row);
     for (; place.row < last_row; place.advance(controller.engine->grid())) {
       if (!any_set(controller.invariant->row(place.row))) continue;
-      posts.enter();
+      posts.enter(place.row);
       write_row(controller, grouping, c, levels, place, posts,
                 result.data() + (place.row - first_row) * length * bytes);
     }

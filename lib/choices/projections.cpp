@@ -41,7 +41,8 @@ template <class Level>
 class Projections::Builder {
  public:
   Builder(const Controller& controller, const ActionGrouping& grouping, const ForbiddenChoices& choices,
-          const LevelRows<Level>& levels, const SilentRules* rules, bool keeps_masks)
+          const LevelRows<Level>& levels, const PostReader<Level>& posts, const SilentRules* rules,
+          bool keeps_masks)
       : controller_(controller),
         rules_(rules),
         levels_(levels),
@@ -51,15 +52,14 @@ class Projections::Builder {
         boxes_(grouping),
         pair_(controller, boxes_, grouping.size()),
         independent_(controller.engine->row_words()),
-        posts_(*controller.engine, levels),
+        posts_(posts),
         members_(controller.engine->row_words()),
         forbidden_(controller.engine->row_words()),
         masks_(grouping.size()) {}
 
-  void enter() { posts_.enter(); }
-
   /// @returns the projections of a row, valid until the next call
   Found project(const RowPlace& place) {
+    posts_.enter(place.row);
     if (rules_ != nullptr) return project_by_rules(place);
     const ConstRow invariant = controller_.invariant->row(place.row);
     grouping_.group(place, groups_);
@@ -319,16 +319,14 @@ void Projections::find_all(const Controller& controller, ThreadTeam& team, const
   const RowEngine& engine = *controller.engine;
   stores_.resize(static_cast<std::size_t>(team.size()));
   const ForbiddenChoices choices(*grouping_, team, rules != nullptr);
-  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
+    const PostReader<Level> posts(engine, levels);
     for (int w = 0; w < team.size(); ++w)
-      builders.emplace_back(controller, *grouping_, choices, levels, rules, keeps_masks);
-    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+      builders.emplace_back(controller, *grouping_, choices, levels, posts, rules, keeps_masks);
+    posts.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        // Minima are shared within a unit.
-        if (place.row == range.begin || place.row % engine.unit_rows() == 0) builder.enter();
         const std::uint32_t number = number_[static_cast<std::size_t>(place.row)];
         if (number == kNothing || of(place.row).row != place.row) continue;
         Found& found = found_[number - 1];
@@ -344,8 +342,11 @@ void Projections::find_all(const Controller& controller, ThreadTeam& team, const
 
 std::span<const Word> Projections::Store::keep(std::span<const Word> list) {
   if (list.empty()) return {};
-  if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < list.size())
-    blocks_.emplace_back().reserve(std::max(kBlock, list.size()));
+  if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < list.size()) {
+    const std::size_t next =
+        blocks_.empty() ? kFirstBlock : std::min(2 * blocks_.back().capacity(), kMostBlock);
+    blocks_.emplace_back().reserve(std::max(next, list.size()));
+  }
   std::vector<Word>& block = blocks_.back();
   block.insert(block.end(), list.begin(), list.end());
   return std::span<const Word>(block).last(list.size());

@@ -129,7 +129,8 @@ class Projections {
     [[nodiscard]] std::span<const Word> keep(std::span<const Word> list);
 
    private:
-    static constexpr std::size_t kBlock = std::size_t{1} << 15;
+    /// A block is twice as long as the last one, up to a limit: each of many threads keeps few lists.
+    static constexpr std::size_t kFirstBlock = std::size_t{1} << 9, kMostBlock = std::size_t{1} << 15;
     std::vector<std::vector<Word>> blocks_;
   };
   /// The projections of one row, and of all rows equal to it.

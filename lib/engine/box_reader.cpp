@@ -53,11 +53,6 @@ BoxReader<Level>::BoxReader(const RowEngine& engine, const RowFamily& family, st
 }
 
 template <class Level>
-void BoxReader<Level>::enter() {
-  ++epoch_;
-}
-
-template <class Level>
 const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
   bool blocked = false;
   bool gone = false;

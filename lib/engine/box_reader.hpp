@@ -7,7 +7,6 @@
 #include "engine/level_rows.hpp"
 #include "engine/row_box.hpp"
 #include "engine/row_engine.hpp"
-#include "engine/row_reader.hpp"
 
 namespace coordreq {
 
@@ -15,8 +14,10 @@ namespace coordreq {
 ///
 /// The minimum over the leading dimensions, which is the same for all rows of a unit, is taken once and kept
 /// (the switch is FastPaths::shared_minima).
+///
+/// One object a thread. Levels do not change from one enter() to the next.
 template <class Level>
-class BoxReader final : public RowReader<Level> {
+class BoxReader {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
@@ -25,9 +26,16 @@ class BoxReader final : public RowReader<Level> {
   BoxReader(const RowEngine& engine, const RowFamily& family, std::size_t outer,
             const LevelRows<Level>& levels);
 
-  void read(const LevelRows<Level>& levels) override { levels_ = &levels; }
-  void enter() override;
-  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override;
+  /// Goes to a unit, and reads levels of the same layout from now on: forgets the minima that the rows of the
+  /// last one share.
+  void enter(const LevelRows<Level>& levels) {
+    levels_ = &levels;
+    ++epoch_;
+  }
+  /// Least levels of the boxes given by the numbers of their slices, one a table: for each cell of the row
+  /// the minimum over its box; 0 where a slice is blocked, else the greatest level where the post has left
+  /// for good. The row may be read up to the next call; whole blocks, as LevelKernels ask.
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids);
   /// Least levels of a box of cells, for the lanes [begin, end) of a row.
   /// @pre unchecked: it lies inside the domain or its margins
   [[nodiscard]] const Level* minimum(const RowBox& box, std::int64_t begin, std::int64_t end);

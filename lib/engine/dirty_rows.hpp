@@ -42,8 +42,8 @@ class DirtyRows {
   /// last.
   [[nodiscard]] bool is_pending(std::int64_t unit, Scratch& scratch) const;
 
-  /// Begins the next batch. @returns its number
-  std::uint32_t begin_batch() { return ++batch_; }
+  /// Begins the next batch.
+  void begin_batch() { ++batch_; }
   /// Nothing was pending for it: its number goes to the next one, so that numbers do not run out.
   void give_up_batch() { --batch_; }
   [[nodiscard]] std::uint32_t batch() const { return batch_; }

@@ -209,11 +209,12 @@ double EngineSizes::readers(int threads, double level_bytes) const {
     const double unit = all / in_double(grid_[0].count);
     return threads * (one + std::min(all, std::max(2 * unit, in_double(kSharedBytes))));
   }
-  return threads * (one + level_bytes * sum_reader());
+  const double units = std::min<double>(threads, in_double(kUnitsAtOnce));
+  return threads * one + units * level_bytes * patches();
 }
 
-/// SumReader: patches, margins included, for the ranges of the leading dimensions that a unit goes to.
-double EngineSizes::sum_reader() const {
+/// SumPatches of a unit, margins included, for the ranges of the leading dimensions that it goes to.
+double EngineSizes::patches() const {
   constexpr double kUsualSizes = 2;  // of a box, in each dimension
   constexpr double kUsualJoined = 8;
   constexpr double kBytesOfMargin = 12;

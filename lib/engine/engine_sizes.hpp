@@ -59,7 +59,7 @@ class EngineSizes {
   [[nodiscard]] double pair_table() const;
   /// ActionGrouping
   [[nodiscard]] double groups(const std::vector<InputClass>& classes) const;
-  /// One PostReader a thread, of levels of `level_bytes` bytes.
+  /// PostReader, one a thread and what they share, of levels of `level_bytes` bytes.
   [[nodiscard]] double readers(int threads, double level_bytes = 1) const;
   /// run_wave(), without its levels.
   [[nodiscard]] double wave(int threads) const;
@@ -67,7 +67,7 @@ class EngineSizes {
   [[nodiscard]] double level_delta() const { return model_->keeps_sums() ? levels() + set() : 0; }
 
  private:
-  [[nodiscard]] double sum_reader() const;
+  [[nodiscard]] double patches() const;
   /// Bytes of the slices of table t before there are tables.
   [[nodiscard]] double usual_bytes(std::size_t t) const;
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;

@@ -26,11 +26,15 @@ inline constexpr std::int64_t kGroupsFoundAtOnce = 256;
 /// cache.
 inline constexpr std::int64_t kSharedBytes = std::int64_t{1} << 20;
 
-/// Bytes of the eroded patches of one thread; a unit of the aircraft needs 41 patches of 0.1 MiB.
+/// Bytes of the eroded patches of one unit; the aircraft needs 41 of 0.1 MiB.
 inline constexpr std::size_t kPatchBytes = std::size_t{1} << 24;
 
-/// Number of patches of one thread that are eroded by a single size, for bounds of several choices.
+/// Number of patches of one unit that are eroded by a single size, for bounds of several choices.
 inline constexpr std::size_t kJoinedPatches = 128;
+
+/// Number of units that are in work at once where each has such patches: threads of the same unit share them,
+/// and wait for each other while one makes them.
+inline constexpr std::int64_t kUnitsAtOnce = 2;
 
 /// By how many indices a bound's box may be wider than the widest box of one choice, in a dimension of
 /// `count` indices: patches have room for such boxes beyond the domain, which must not cost more than bounds

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/fast_paths.hpp"
 #include "base/requires.hpp"
+#include "base/thread_team.hpp"
 #include "engine/box_reader.hpp"
+#include "engine/limits.hpp"
 #include "engine/sum_reader.hpp"
 
 namespace coordreq {
@@ -15,7 +18,10 @@ namespace coordreq {
 /// The one question that every operator asks, answered for a whole row of cells at once: the least level in
 /// f(x, u) for each cell x. 0 where f(x, u) is empty: the post is blocked, or its tube is not safe.
 ///
-/// Threads: one object a thread; the objects of many threads may read the same levels.
+/// Tables come in two forms, each with a reader of its own: BoxReader for rows that are cut into segments,
+/// and SumReader for rows that are added up.
+///
+/// Threads: one object a thread, each a copy of the first; so they share what SumReader keeps of a unit.
 ///
 /// 1. From one enter() to the next the levels do not change, and all rows asked about are of one unit:
 ///    minima that its rows share are kept until then.
@@ -26,31 +32,49 @@ template <class Level>
 class PostReader {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
+  /// So many tasks a thread even out that some rows take longer than others.
+  static constexpr std::int64_t kTasksOfThread = 8;
 
   /// @pre unchecked: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
   PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
-
-  PostReader(const PostReader&) = delete;
+  /// A reader for another thread, in no unit yet.
+  PostReader(const PostReader& other);
   PostReader& operator=(const PostReader&) = delete;
+  ~PostReader() = default;
 
-  /// Goes to a unit: its rows are asked about from now on.
-  void enter() {
-    boxes_.enter();
-    if (sums_) sums_->enter();
+  /// Goes to the unit of a row: rows of it are asked about from now on.
+  void enter(std::int64_t row) { enter(row, *levels_); }
+
+  /// Goes to the unit of a row, and reads other levels of the same layout from now on.
+  void enter(std::int64_t row, const LevelRows<Level>& levels) {
+    const std::int64_t unit = row / engine_.unit_rows();
+    if (unit == unit_ && &levels == levels_ && epoch_ == common_->epoch) return;
+    unit_ = unit;
+    levels_ = &levels;
+    epoch_ = common_->epoch;
+    boxes_.enter(levels);
+    if (sums_) sums_->enter(unit, levels);
   }
 
-  /// Goes to a unit, and reads other levels of the same layout from now on.
-  void enter(const LevelRows<Level>& levels) {
-    boxes_.read(levels);
-    if (sums_) sums_->read(levels);
-    enter();
+  /// Levels may be others from now on: this reader and its copies forget what they keep of units, until they
+  /// enter one. For one thread, while no other reads.
+  void forget() const;
+
+  /// The number of units for so many threads to be in at once, with enough rows for all: few, where patches
+  /// are kept of them.
+  [[nodiscard]] std::int64_t units_at_once(int threads) const {
+    const bool keeps_patches = sums_ && threads > 1;
+    return keeps_patches ? kUnitsAtOnce + kTasksOfThread * threads / engine_.unit_rows() : engine_.rows();
   }
+  /// Calls `body(range, worker)` for ranges of rows that together are all local rows, each thread with a copy
+  /// of this reader, for units_at_once() at a time.
+  void for_each_local_row(ThreadTeam& team, const ThreadTeam::Body& body) const;
 
   /// Least levels of the posts given by the numbers of their slices, one for each of engine.slices(). Whole
   /// blocks may be read, as LevelKernels ask.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
     const auto of_posts = ids.first(engine_.tables());
-    const Level* levels = posts_->minimum(of_posts);
+    const Level* levels = sums_ ? sums_->minimum(of_posts) : boxes_.minimum(of_posts);
     return tubes_.empty() ? levels : with_tubes(ids, levels);
   }
   /// minimum() in some lanes of the row alone; the first of these lanes comes first.
@@ -94,10 +118,21 @@ class PostReader {
   [[nodiscard]] bool has_bounds() const { return sums_ && tubes_.empty(); }
   [[nodiscard]] const Level* with_tubes(std::span<const std::uint32_t> ids, const Level* levels);
 
+  /// What a reader has in common with its copies.
+  struct Common {
+    explicit Common(const RowEngine& engine);
+    std::uint64_t epoch = 0;                     ///< begins anew when levels may be others
+    std::shared_ptr<SumPatches<Level>> patches;  ///< null: posts are cut
+  };
+  PostReader(const RowEngine& engine, const LevelRows<Level>& levels, std::shared_ptr<Common> common);
+
   const RowEngine& engine_;
+  const LevelRows<Level>* levels_;
+  std::shared_ptr<Common> common_;
+  std::int64_t unit_ = -1;  ///< that it is in
+  std::uint64_t epoch_ = 0;
   BoxReader<Level> boxes_;  ///< reads posts if they are cut, and the box around all posts of a row
   std::optional<SumReader<Level>> sums_;        ///< reads posts if they are added up
-  RowReader<Level>* posts_;                     ///< boxes_ or sums_
   std::vector<BoxReader<std::uint8_t>> tubes_;  ///< [demand]
   bool bounds_several_ = fast_paths().choice_bounds;
   std::span<const std::uint32_t> taken_;

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "engine/level_rows.hpp"
+#include "base/short_wait.hpp"
 #include "engine/row_engine.hpp"
-#include "engine/row_reader.hpp"
 #include "engine/sum_kernels.hpp"
+#include "engine/sum_patches.hpp"
 
 namespace coordreq {
 
@@ -18,28 +18,35 @@ namespace coordreq {
 /// All cells of a unit move alike in the leading dimensions. For each choice of ranges there, the minimum
 /// over them is a *patch*: the levels of a unit over the inner dimensions, with margins beyond the domain.
 /// Boxes in it are of few sizes; the patch is eroded by each size once, and then one fetch a cell gives the
-/// minimum of its box.
+/// minimum of its box. Readers share patches (SumPatches), so that a unit has one set of them for all
+/// threads.
 ///
 /// Choices of one class mostly differ by the same for all cells of a row. A box a cell around several of them
 /// gives a bound, and where the bound lowers nothing none of them is fetched: the aircraft on a fine grid
 /// takes 0.55 of its time (FastPaths::choice_bounds).
+///
+/// One object a thread. Levels do not change from one enter() to the next.
 template <class Level>
-class SumReader final : public RowReader<Level> {
+class SumReader {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
   /// @pre the posts of the engine are not cut.
-  /// @pre unchecked: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object
-  SumReader(const RowEngine& engine, const LevelRows<Level>& levels);
+  /// @param patches of this engine, shared with other readers
+  /// @pre unchecked: `engine` outlives this object
+  SumReader(const RowEngine& engine, std::shared_ptr<SumPatches<Level>> patches);
 
-  void read(const LevelRows<Level>& levels) override { levels_ = &levels; }
-  void enter() override {
+  /// Goes to a unit, see SumPatches::enter(). @pre unchecked: `levels` (from
+  /// engine.make_levels(engine.posts())) outlive the visit
+  void enter(std::int64_t unit, const LevelRows<Level>& levels) {
     ++epoch_;
-    slots_.used = 0;
-    joined_slots_.used = 0;
+    patches_->enter(unit, levels, unit_);
   }
-  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override {
-    return minimum(ids, {0, static_cast<std::size_t>(levels_->row_length())}, kTop);
+  /// Least levels of the boxes given by the numbers of their slices, one a table: for each cell of the row
+  /// the minimum over its box; 0 where a slice is blocked, else the greatest level where the post has left
+  /// for good. The row may be read up to the next call; whole blocks, as LevelKernels ask.
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
+    return minimum(ids, engine_.all_lanes(), kTop);
   }
   /// minimum() in some lanes of the row alone; the first of these lanes comes first, after the last a block
   /// of `rest`.
@@ -55,24 +62,12 @@ class SumReader final : public RowReader<Level> {
   [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes);
 
  private:
-  /// A cell of a patch outside the domain, and its level: that of another cell, or a constant.
-  struct Margin {
-    std::int32_t cell;
-    std::int32_t source;  ///< -1: the constant
-    Level constant;
-  };
+  using Key = typename SumPatches<Level>::Key;
   /// The patch for one choice in the leading dimensions, eroded by boxes of every size, or of one.
   struct Slot {
-    std::vector<IndexRange> ranges;
-    std::vector<std::int32_t> widths;  ///< last - first of the one size; empty: all sizes are there
+    Key key;
     std::uint64_t epoch = 0;
-    Level* levels = nullptr;  ///< [size][cell of the patch], a buffer
-  };
-  /// The buffers are for all slots together, so that there are as many as one unit has needed.
-  struct Slots {
-    std::vector<Slot> table;  ///< by hash
-    std::deque<std::vector<Level>> buffers;
-    std::size_t used = 0;  ///< buffers that slots of this epoch have
+    const Level* levels = nullptr;  ///< [size][cell of the patch]
   };
   /// The slices of some choices.
   struct Choices {
@@ -81,48 +76,30 @@ class SumReader final : public RowReader<Level> {
     std::vector<SumRows::Rows> rows;      ///< [inner dimension]
   };
 
-  void lay_out_patch();
-  void find_margins();
   [[nodiscard]] RowSegment::Kind lead(std::span<const std::uint32_t> ids, IndexRange* ranges) const;
   [[nodiscard]] const Level* minimum(RowSegment::Kind kind, LaneRange lanes, Level rest);
   [[nodiscard]] bool join(std::size_t begin, std::size_t end);
   [[nodiscard]] std::int32_t greatest_width(std::size_t i, const SumRows::Row& row) const;
-  void fetch(const Slot& slot, LaneRange lanes, Level rest);
+  void fetch(const Level* patch, LaneRange lanes, Level rest);
   void fill_rest(LaneRange lanes, Level rest);
-  [[nodiscard]] Slot& slot(Slots& slots, const std::vector<std::int32_t>& widths, bool gone);
-  [[nodiscard]] Level* next_buffer(Slots& slots, std::size_t sizes) const;
-  void fill(Slot& slot, bool gone);
-  void fill_patch(Slot& slot, bool gone);
-  void erode(Slot& slot, std::size_t size);
-  void erode_patch(Slot& slot, const std::vector<std::int32_t>& widths);
+  [[nodiscard]] const Level* patch();
 
   const RowEngine& engine_;
   RowFamily family_;
-  const LevelRows<Level>* levels_;
-  const LevelKernels<Level>* kernels_;
+  std::shared_ptr<SumPatches<Level>> patches_;
   const SumKernels* sums_;
   std::vector<SumRows::Reader> readers_;  ///< [inner dimension]
   std::vector<BoxSides> sides_;           ///< [inner dimension]
-  std::vector<std::int32_t> sizes_;       ///< [inner dimension] number of different widths
-  std::vector<std::size_t> size_stride_;  ///< [inner dimension] from one width to the next, in sizes
-  std::vector<std::int32_t> narrowest_;   ///< [inner dimension] least last - first
-  std::vector<std::int32_t> reach_;       ///< [inner dimension] greatest last - first, of joined boxes too
-  std::int64_t patch_cells_ = 0;
-  std::size_t variants_ = 1;
-  std::int32_t origin_ = 0;        ///< offset in a patch of the cell with index 0 in all dimensions
-  std::int32_t first_offset_ = 0;  ///< origin_ in the patch for boxes of width 0, whether or not there is one
-  std::vector<Margin> margins_;
-  std::vector<std::int64_t> row_offsets_;  ///< [row of a unit] offset of its first cell
-  std::vector<IndexRange> ranges_;         ///< [leading dimension] of the box being read
-  std::vector<SumRows::Row> rows_;         ///< [inner dimension] of the box being read
-  std::vector<std::int32_t> widths_;  ///< [inner dimension] greatest last - first of a cell in a joined box
+  Key box_;                         ///< leading ranges of the box being read, and its widths if it is joined
+  std::vector<SumRows::Row> rows_;  ///< [inner dimension] of the box being read
   Choices taken_;
-  std::vector<std::int64_t> counter_;
-  std::vector<const Level*> sources_;
   std::vector<std::int32_t> offsets_;
   std::vector<Level> result_;
-  Slots slots_;
-  Slots joined_slots_;
+  std::shared_ptr<typename SumPatches<Level>::Unit> unit_;
+  std::vector<Slot> slots_;  ///< by hash: patches that were found
+  Slot own_slot_;            ///< a patch that is not shared, in own_patch_
+  std::vector<Level> own_patch_;
+  ShortWait wait_;
   std::uint64_t epoch_ = 1;
 };
 

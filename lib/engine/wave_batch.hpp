@@ -47,7 +47,8 @@ class WaveBatch {
         memo_(equal, levels),
         symmetry_(equal.symmetry),
         alive_(levels, own_, units_.rows(), op.rises(), equal.symmetry, team) {
-    for (int w = 0; w < team.size(); ++w) workers_.emplace_back(w, engine, levels, dirty_);
+    const PostReader<Level> posts(engine, levels);
+    for (int w = 0; w < team.size(); ++w) workers_.emplace_back(w, posts, dirty_);
     if (fast_paths().level_delta && op.is_minimum() && !engine.posts().is_cut()) delta_.emplace(engine, team);
     for (std::int64_t unit = first_unit(); unit < first_unit() + unit_count(); ++unit) {
       if (alive_.of_unit(unit) > 0) dirty_.set_unseen(unit);
@@ -76,7 +77,7 @@ class WaveBatch {
   /// @returns nothing if none of them is pending
   std::optional<BatchCounts> run(std::span<const std::uint32_t> units, std::int64_t turn) {
     counts_ = {};
-    batch_ = dirty_.begin_batch();
+    dirty_.begin_batch();
     share(std::ssize(units), kFewUnits, [&](std::int64_t k, Worker& worker) {
       choose(first_unit() + units[static_cast<std::size_t>(k)], turn + k * units_.rows(), worker);
     });
@@ -85,8 +86,7 @@ class WaveBatch {
       dirty_.give_up_batch();
       return std::nullopt;
     }
-    share(std::ssize(tasks_), 2,
-          [&](std::int64_t t, Worker& worker) { visit(tasks_[static_cast<std::size_t>(t)], worker); });
+    visit_tasks();
     if (!memo_.is_on() || memo_.rows() > 1) mark_seen();
     commit();
     copy();
@@ -102,8 +102,6 @@ class WaveBatch {
   }
 
  private:
-  /// So many tasks a thread even out that some rows take longer than others.
-  static constexpr std::int64_t kTasksOfThread = 8;
   /// Fewer units are chosen from, and fewer rows are written, sooner than they are handed out.
   static constexpr std::int64_t kFewUnits = 64;
   static constexpr std::int64_t kFewRows = 16;
@@ -127,9 +125,9 @@ class WaveBatch {
     std::int64_t to;
   };
   struct Worker {
-    Worker(int w, const RowEngine& engine, const LevelRows<Level>& levels, const DirtyRows& dirty_rows)
+    Worker(int w, const PostReader<Level>& first, const DirtyRows& dirty_rows)
         : number(w),
-          posts(engine, levels),
+          posts(first),
           old(posts.lanes(), 0),
           next(posts.lanes(), 0),
           result(posts.lanes(), 0),
@@ -145,9 +143,7 @@ class WaveBatch {
     DirtyRows::Scratch dirty;
     typename TileMemo<Level>::Scratch memo;
     BatchCounts counts;
-    Level lowest = kTop;      ///< to which a cell has sunk
-    std::uint32_t batch = 0;  ///< in which the reader was entered
-    std::int64_t unit = -1;   ///< that the reader was entered for
+    Level lowest = kTop;  ///< to which a cell has sunk
   };
 
   [[nodiscard]] Worker& worker(int w) { return workers_[static_cast<std::size_t>(w)]; }
@@ -155,7 +151,7 @@ class WaveBatch {
   /// Calls `work(k, worker)` for k below `count`, by all threads unless there are fewer than `few`.
   template <class Work>
   void share(std::int64_t count, std::int64_t few, const Work& work) {
-    const std::int64_t parts = kTasksOfThread * team_.size();
+    const std::int64_t parts = PostReader<Level>::kTasksOfThread * team_.size();
     team_.for_each(count, count < few ? count : std::max<std::int64_t>(1, count / parts),
                    [&](ThreadTeam::Range range, int w) {
                      for (std::int64_t k = range.begin; k < range.end; ++k) work(k, worker(w));
@@ -212,35 +208,41 @@ class WaveBatch {
       worker.chosen.clear();
     }
     if (memo_.is_on()) memo_.count(std::ssize(tasks_) + std::ssize(copies_), std::ssize(copies_));
-    divide_tasks();
   }
 
-  /// Where there are few units, their rows are divided between the threads, at the price that several of
-  /// them find the same minima.
-  void divide_tasks() {
-    const std::int64_t wanted = team_.size() == 1 ? 1 : kTasksOfThread * team_.size();
-    const std::int64_t count = std::ssize(tasks_);
-    const std::int64_t parts = count == 0 ? 1 : (wanted + count - 1) / count;
-    if (parts == 1) return;
-    for (std::int64_t t = 0; t < count; ++t) {
-      Task& task = tasks_[static_cast<std::size_t>(t)];
-      const std::int64_t begin = task.begin, end = task.end;
-      const std::int64_t rows = std::max<std::int64_t>(1, (end - begin + parts - 1) / parts);
-      task.end = std::min(begin + rows, end);
-      Task next = task;
-      for (next.begin = task.end; next.begin < end; next.begin = next.end) {
-        next.end = std::min(next.begin + rows, end);
-        tasks_.push_back(next);
+  /// Does all tasks; where patches are kept of units those of few units at a time.
+  void visit_tasks() {
+    const PostReader<Level>& posts = workers_.front().posts;
+    const auto most = static_cast<std::size_t>(posts.units_at_once(team_.size()));
+    for (std::span<const Task> rest(tasks_); !rest.empty();) {
+      const std::size_t count = std::min(most, rest.size());
+      divide(rest.first(count));
+      rest = rest.subspan(count);
+      posts.forget();
+      share(std::ssize(pieces_), 2,
+            [&](std::int64_t t, Worker& worker) { visit(pieces_[static_cast<std::size_t>(t)], worker); });
+    }
+  }
+
+  /// pieces_ = these tasks. Where there are few units, their rows are divided between the threads, at the
+  /// price that several of them may find the same minima.
+  void divide(std::span<const Task> tasks) {
+    const std::int64_t wanted = team_.size() == 1 ? 1 : PostReader<Level>::kTasksOfThread * team_.size();
+    const std::int64_t parts = (wanted + std::ssize(tasks) - 1) / std::ssize(tasks);
+    pieces_.clear();
+    for (Task task : tasks) {
+      const std::int64_t end = task.end;
+      const std::int64_t rows = (end - task.begin + parts - 1) / parts;
+      for (; task.begin < end; task.begin = task.end) {
+        task.end = std::min(task.begin + rows, end);
+        pieces_.push_back(task);
       }
     }
   }
 
   void visit(const Task& task, Worker& worker) {
-    if (worker.batch != batch_ || worker.unit != task.unit) {
-      worker.posts.enter(delta_ && !dirty_.is_unseen(task.unit) ? delta_->levels() : levels_);
-      worker.batch = batch_;
-      worker.unit = task.unit;
-    }
+    const bool asks_delta = delta_ && !dirty_.is_unseen(task.unit);
+    worker.posts.enter(task.begin, asks_delta ? delta_->levels() : levels_);
     if (!task.is_wanted && !dirty_.is_unseen(task.unit)) dirty_.enter(task.unit, worker.dirty);
     RowPlace place(engine_.grid(), task.begin);
     for (; place.row < task.end; place.advance(engine_.grid())) {
@@ -374,10 +376,10 @@ class WaveBatch {
   const RowSymmetry* symmetry_;             ///< null: there is none
   AliveRows alive_;
   Level lowest_ = kTop;
-  std::uint32_t batch_ = 0;  ///< its number
   BatchCounts counts_;
   std::deque<Worker> workers_;
   std::vector<Task> tasks_;
+  std::vector<Task> pieces_;  ///< of some of them, for one thread each
   std::vector<Copy> copies_;
   std::vector<std::int64_t> ends_;  ///< [worker] changes up to its own
 };

@@ -147,7 +147,7 @@ void sweep(benchmark::State& state, const std::string& name) {
       std::vector<Level> next(posts.lanes());
       RowPlace place(engine.grid(), range.begin);
       for (; place.row < range.end; place.advance(engine.grid())) {
-        if (place.row % engine.unit_rows() == 0) posts.enter();
+        posts.enter(place.row);
         if (any_set(invariant.row(place.row))) actions.find_minimum(place, posts, next.data(), worker);
       }
     });

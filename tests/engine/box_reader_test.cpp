@@ -222,7 +222,7 @@ TYPED_TEST(BoxReaderTest, SlicesAreReadAsCellByCell) {
     for (int unit = 0; unit < 3; ++unit) {
       const Levels<TypeParam> levels(problem);
       levels.fill(rows);
-      reader.enter();
+      reader.enter(rows);
       for (int k = 0; k < 6; ++k) expect_minimum(reader, problem, levels);
     }
   }));

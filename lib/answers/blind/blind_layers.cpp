@@ -84,14 +84,13 @@ LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, 
     const Level most = is_cut ? static_cast<Level>(fixed_point + 1) : kTop;
     auto delays = engine.make_levels<Level>(engine.posts());
     IndependentActions<Level> actions(problem.sources.projections, invariant, team.size());
-    std::deque<PostReader<Level>> readers;
-    for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, layers);
-    const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+    const PostReader<Level> first(engine, layers);
+    std::deque<PostReader<Level>> readers(at(team.size()), first);
+    first.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level>& posts = readers[at(worker)];
       std::vector<Level> least(posts.lanes(), 0), cells(posts.lanes(), 0);
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
+        posts.enter(place.row);
         const ConstRow terminal = problem.terminal == nullptr ? ConstRow() : problem.terminal->row(place.row);
         if (!any_set(invariant.row(place.row)) && !any_set(terminal)) continue;
         actions.find_minimum(place, posts, least.data(), worker);

@@ -165,17 +165,15 @@ ConventionFreedom find_convention(const Controller& controller, const ActionGrou
   std::vector<std::vector<double>> sums(
       agents.size(), std::vector<double>(static_cast<std::size_t>(local.end - local.begin), 0));
   const LikeRows like = find_like_rows(*controller.invariant, local, engine.share(), tiles);
-  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<ConventionRows<Level>> finders;
-    for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, agents, levels);
-    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+    const PostReader<Level> posts(engine, levels);
+    for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, agents, levels, posts);
+    posts.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
       ConventionRows<Level>& finder = finders[static_cast<std::size_t>(worker)];
       ConventionRow row;
       Measure measure(engine.row_length());
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        // Minima are shared within a unit.
-        if (place.row == range.begin || place.row % engine.unit_rows() == 0) finder.enter();
         const auto k = static_cast<std::size_t>(place.row - local.begin);
         if (like.first[k] != place.row) continue;
         const ConstRow invariant = controller.invariant->row(place.row);
@@ -202,7 +200,6 @@ void write_row(ConventionRows<Level>& finder, const Controller& controller, cons
   const ConstRow invariant = controller.invariant->row(place.row);
   if (!any_set(invariant)) return;
   ConventionRow row;
-  finder.enter();
   finder.find(place, row);
   const ActionGroups& groups = *row.groups.classes[agent];
   for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
@@ -222,7 +219,7 @@ void fill_convention_bits(const Controller& controller, const ActionGrouping& ag
   const auto row_bytes = static_cast<std::uint64_t>(controller.engine->row_length() * bytes);
   auto* target = static_cast<std::uint8_t*>(out);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
-    ConventionRows<Level> finder(controller, agents, levels);
+    ConventionRows<Level> finder(controller, agents, levels, {*controller.engine, levels});
     std::vector<std::uint8_t> cells(row_bytes);
     // A segment may begin and end inside a row.
     while (count > 0) {

@@ -27,22 +27,22 @@ template <class Level>
 class ConventionRows {
  public:
   /// @param agents the actions of each agent as a class of its own, in the order of the spec
-  /// @pre unchecked: all outlive this object; `levels` are those of controller.levels.
-  ConventionRows(const Controller& controller, const ActionGrouping& agents, const LevelRows<Level>& levels)
+  /// @param posts a reader of the levels, of which this object takes a copy
+  /// @pre unchecked: all others outlive this object; `levels` are those of controller.levels.
+  ConventionRows(const Controller& controller, const ActionGrouping& agents, const LevelRows<Level>& levels,
+                 const PostReader<Level>& posts)
       : controller_(controller),
         levels_(levels),
         agents_(agents),
         words_(controller.engine->row_words()),
-        posts_(*controller.engine, levels) {
+        posts_(posts) {
     for (std::size_t i = 0; i < agents.size(); ++i) offsets_.push_back(agents[i].offsets());
   }
-
-  /// Goes to another unit.
-  void enter() { posts_.enter(); }
 
   /// @pre some cell of the row is in K
   void find(const RowPlace& place, ConventionRow& row) {
     REQUIRES(any_set(controller_.invariant->row(place.row)));
+    posts_.enter(place.row);
     agents_.group(place, row.groups);
     find_controller(place, row);
     find_seeds(controller_.invariant->row(place.row), row);

@@ -43,15 +43,15 @@ void remove(ConstRow cells, MutableRow set) {
 template <class Level>
 class LeavingRows {
  public:
-  /// @param levels those of the controller
+  /// @param posts a reader of the levels of the controller, of which this object takes a copy
   LeavingRows(const Answers& answers, const Projections& projections, const SafeSides& sides,
-              const LevelRows<Level>& levels)
+              const PostReader<Level>& posts)
       : context_(answers.context),
         controller_(answers.get<NonterminalController>().controller),
         engine_(*context_.engine),
         projections_(projections),
         sides_(sides),
-        posts_(engine_, levels),
+        posts_(posts),
         pending_(engine_.row_words()),
         near_(engine_.row_words()),
         leaving_(engine_.row_words()) {}
@@ -65,7 +65,7 @@ class LeavingRows {
     if (full) {
       std::copy(pending_.begin(), pending_.end(), outward.begin());
     } else {
-      enter(place);
+      posts_.enter(place.row);
       keep_members(place, sides_.outward(), pending_, outward);
     }
     sides_.find_near(place, pending_, near_);
@@ -82,7 +82,7 @@ class LeavingRows {
     ++rows_;
     if (!sides_.outward_leads_ahead(place, cells)) return false;
     if (is_full(place.row)) return true;
-    enter(place);
+    posts_.enter(place.row);
     keep_members(place, sides_.outward(), cells, members_);
     return std::ranges::equal(members_, cells);
   }
@@ -98,12 +98,6 @@ class LeavingRows {
   [[nodiscard]] bool is_full(std::int64_t row) const {
     const RowSymmetry* const symmetry = projections_.equal_work().symmetry;
     return projections_.is_full(symmetry == nullptr ? row : symmetry->canonical_of(row));
-  }
-
-  void enter(const RowPlace& place) {
-    const std::int64_t unit = place.row / engine_.unit_rows();
-    if (unit != unit_) posts_.enter();
-    unit_ = unit;
   }
 
   /// Keeps of near_ the cells from which a joint input of C(x) leaves.
@@ -173,7 +167,6 @@ class LeavingRows {
   std::vector<Word> staying_ = std::vector<Word>(near_.size());
   std::map<std::vector<std::uint32_t>, std::vector<Word>> members_of_;  ///< by the numbers of the slices
   std::vector<std::uint32_t> ids_;
-  std::int64_t unit_ = -1;  ///< that the reader was entered for
   std::int64_t rows_ = 0;
   std::int64_t reads_ = 0;
   std::int64_t removed_ = 0;
@@ -186,7 +179,8 @@ void with_workers(const Answers& answers, const Projections& projections, const 
   answers.get<NonterminalController>().controller.levels->visit(
       [&]<class Level>(const LevelRows<Level>& levels) {
         std::deque<LeavingRows<Level>> workers;
-        for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, levels);
+        const PostReader<Level> posts(*answers.context.engine, levels);
+        for (int w = 0; w < team.size(); ++w) workers.emplace_back(answers, projections, sides, posts);
         visit(workers);
       });
 }

@@ -20,14 +20,13 @@ CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, 
   sets.nearness->visit([&]<class Level>(const LevelRows<Level>& levels) {
     const LevelRows<Level>& bounds = bounds_of(Controller{.bounds = sets.bounds}, levels);
     IndependentActions<Level> actions(projections, *sets.outside_goal, team.size());
-    std::deque<PostReader<Level>> readers;
-    for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
-    const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-    for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+    const PostReader<Level> first(engine, levels);
+    std::deque<PostReader<Level>> readers(static_cast<std::size_t>(team.size()), first);
+    first.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
       std::vector<Level> least(posts.lanes(), 0);
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
+        posts.enter(place.row);
         const ConstRow outside_goal = sets.outside_goal->row(place.row);
         if (!any_set(outside_goal)) continue;
         actions.find_minimum(place, posts, least.data(), worker);

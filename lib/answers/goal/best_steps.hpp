@@ -21,14 +21,13 @@ void for_each_best(const LastingProblem& problem, const ActionGrouping& grouping
                    const LevelRows<Level>& levels, const CellSet& cells, ThreadTeam& team, const Body& body) {
   const RowEngine& engine = problem.progress->engine();
   const auto best = make_joint_actions<Level>(grouping, problem.synthesis, true, team.size());
-  std::deque<PostReader<Level>> readers;
-  for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
-  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-  for_each_local_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+  const PostReader<Level> first(engine, levels);
+  std::deque<PostReader<Level>> readers(static_cast<std::size_t>(team.size()), first);
+  first.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
     PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
     std::vector<Level> old(posts.lanes(), 0), next(posts.lanes(), 0);
     for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-      if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
+      posts.enter(place.row);
       if (!any_set(cells.row(place.row))) continue;
       std::copy_n(levels.row(place.row), engine.row_length(), old.begin());
       best->next_levels(place, posts, old.data(), next.data(), worker);

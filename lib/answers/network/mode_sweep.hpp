@@ -62,7 +62,8 @@ class ModeSweep {
         modes_(problem.modes),
         team_(team),
         operators_(choices.operators<Level>(team.size())) {
-    for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine_, levels);
+    const PostReader<Level> posts(engine_, levels);
+    for (int w = 0; w < team.size(); ++w) workers_.emplace_back(posts);
   }
 
   /// Calls `take(row, next, worker)` for all rows that are pending, by several threads. `next` is scratch
@@ -73,13 +74,12 @@ class ModeSweep {
     constexpr std::int64_t kTaskRows = 16;
     RowOperator<Level>& op = *operators_[modes_[mode].partition];
     const std::int64_t count = std::ssize(pending.rows);
+    workers_.front().posts.forget();
     team_.for_each(count, kTaskRows, [&](ThreadTeam::Range range, int w) {
       Worker& worker = workers_[static_cast<std::size_t>(w)];
-      std::int64_t unit = -1;
       for (std::int64_t i = range.begin; i < range.end; ++i) {
         const std::int64_t row = pending.rows[static_cast<std::size_t>(i)];
-        if (row / engine_.unit_rows() != unit) worker.posts.enter(target);
-        unit = row / engine_.unit_rows();
+        worker.posts.enter(row, target);
         find(op, row, set.row(row), worker, w);
         take(row, worker.next.data(), w);
       }
@@ -114,8 +114,8 @@ class ModeSweep {
 
  private:
   struct Worker {
-    Worker(const RowEngine& engine, const LevelRows<Level>& levels)
-        : posts(engine, levels), old(posts.lanes(), 0), next(posts.lanes(), 0) {}
+    explicit Worker(const PostReader<Level>& first)
+        : posts(first), old(posts.lanes(), 0), next(posts.lanes(), 0) {}
     PostReader<Level> posts;
     std::vector<Level> old;
     std::vector<Level> next;
