@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 #include "base/requires.hpp"
@@ -95,9 +94,11 @@ class TableWriter {
   Index segment(const PiecewiseLinear& f, std::size_t first, std::size_t last, Index x) {
     if (!rises_or_falls(f, first, last)) {
       const auto value = [&](std::size_t i) { return f.at_end(i); };
-      const auto ends = std::views::iota(first, last + 1);
-      const Rational most = std::ranges::max(ends | std::views::transform(value));
-      const Rational least = std::ranges::min(ends | std::views::transform(value));
+      Rational most = value(first), least = most;
+      for (std::size_t i = first + 1; i <= last; ++i) {
+        most = std::max<Rational>(most, value(i));
+        least = std::min<Rational>(least, value(i));
+      }
       for (const auto& [level, op] :
            {std::pair{most, Operator::minimum}, std::pair{least, Operator::maximum}}) {
         for (std::size_t i = first + 1; i < last; ++i) {
