@@ -1,7 +1,9 @@
 #include "base/process_memory.hpp"
 
-#include <malloc.h>
 #include <sys/resource.h>
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
@@ -48,14 +50,16 @@ std::int64_t untouched_bytes() {
 }  // namespace
 
 void share_heaps() {
-#if defined(M_ARENA_MAX)
+#if defined(__GLIBC__)
   constexpr int kHeaps = 4;
   mallopt(M_ARENA_MAX, kHeaps);
 #endif
 }
 
 void give_back_memory() {
+#if defined(__GLIBC__)
   malloc_trim(0);
+#endif
 }
 
 double memory_of_program() {

@@ -209,7 +209,12 @@ double EngineSizes::readers(int threads, double level_bytes) const {
     const double unit = all / in_double(grid_[0].count);
     return threads * (one + std::min(all, std::max(2 * unit, in_double(kSharedBytes))));
   }
-  const double units = std::min<double>(threads, in_double(kUnitsAtOnce));
+  double cells_of_unit = 1;
+  for (std::size_t i = 0; i < grid_.size(); ++i)
+    cells_of_unit *= model_->arranged_shapes()[i].sum ? in_double(grid_[i].count) : 1;
+  const auto rows_of_unit =
+      static_cast<std::int64_t>(std::max(1.0, cells_of_unit / in_double(grid_.row_length())));
+  const double units = std::min<double>(threads, in_double(units_at_once(threads, rows_of_unit)));
   return threads * one + units * level_bytes * patches();
 }
 

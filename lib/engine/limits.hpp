@@ -32,9 +32,14 @@ inline constexpr std::size_t kPatchBytes = std::size_t{1} << 24;
 /// Number of patches of one unit that are eroded by a single size, for bounds of several choices.
 inline constexpr std::size_t kJoinedPatches = 128;
 
-/// Number of units that are in work at once where each has such patches: threads of the same unit share them,
-/// and wait for each other while one makes them.
-inline constexpr std::int64_t kUnitsAtOnce = 2;
+/// So many tasks per thread even out that some rows take longer than others.
+inline constexpr std::int64_t kTasksOfThread = 8;
+
+/// Number of units that are in work at once where each has such patches, with enough rows for all threads:
+/// threads in the same unit share them, and wait for each other while one makes them.
+[[nodiscard]] constexpr std::int64_t units_at_once(int threads, std::int64_t rows_of_unit) {
+  return 2 + kTasksOfThread * threads / rows_of_unit;
+}
 
 /// By how many indices a bound's box may be wider than the widest box of one choice, in a dimension of
 /// `count` indices: patches have room for such boxes beyond the domain, which must not cost more than bounds

@@ -32,9 +32,6 @@ template <class Level>
 class PostReader {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
-  /// So many tasks a thread even out that some rows take longer than others.
-  static constexpr std::int64_t kTasksOfThread = 8;
-
   /// @pre unchecked: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
   PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
   /// A reader for another thread, in no unit yet.
@@ -64,7 +61,7 @@ class PostReader {
   /// are kept of them.
   [[nodiscard]] std::int64_t units_at_once(int threads) const {
     const bool keeps_patches = sums_ && threads > 1;
-    return keeps_patches ? kUnitsAtOnce + kTasksOfThread * threads / engine_.unit_rows() : engine_.rows();
+    return keeps_patches ? coordreq::units_at_once(threads, engine_.unit_rows()) : engine_.rows();
   }
   /// Calls `body(range, worker)` for ranges of rows that together are all local rows, each thread with a copy
   /// of this reader, for units_at_once() at a time.

@@ -151,7 +151,7 @@ class WaveBatch {
   /// Calls `work(k, worker)` for k below `count`, by all threads unless there are fewer than `few`.
   template <class Work>
   void share(std::int64_t count, std::int64_t few, const Work& work) {
-    const std::int64_t parts = PostReader<Level>::kTasksOfThread * team_.size();
+    const std::int64_t parts = kTasksOfThread * team_.size();
     team_.for_each(count, count < few ? count : std::max<std::int64_t>(1, count / parts),
                    [&](ThreadTeam::Range range, int w) {
                      for (std::int64_t k = range.begin; k < range.end; ++k) work(k, worker(w));
@@ -227,7 +227,7 @@ class WaveBatch {
   /// pieces_ = these tasks. Where there are few units, their rows are divided between the threads, at the
   /// price that several of them may find the same minima.
   void divide(std::span<const Task> tasks) {
-    const std::int64_t wanted = team_.size() == 1 ? 1 : PostReader<Level>::kTasksOfThread * team_.size();
+    const std::int64_t wanted = team_.size() == 1 ? 1 : kTasksOfThread * team_.size();
     const std::int64_t parts = (wanted + std::ssize(tasks) - 1) / std::ssize(tasks);
     pieces_.clear();
     for (Task task : tasks) {

@@ -89,6 +89,12 @@ class Cases(Case):
         self.write("s.json", SPEC)
         self.assert_kept("s.json", 300)
 
+    def test_threads_share_what_they_read_of_coupled_motions(self):
+        few, many = (self.peak("analyze", str(CONFIGS / "aircraft.json"), "-o", str(self.folder / "o.h5"), "--force",
+                               "--quiet", "--threads", threads) for threads in ("2", "16"))  # fmt: skip
+        self.assertEqual((few[0], many[0]), (0, 0))
+        self.assertLessEqual(many[1], 1.25 * few[1])
+
     def test_fewer_threads_where_memory_is_short(self):
         self.write("s.json", SPEC)
         limit = round(1.02 * self.estimate("s.json", "--threads", "3"))
