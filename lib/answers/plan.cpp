@@ -57,6 +57,8 @@ void run_stages(const std::vector<Stage>& stages, Answers& answers, const StageW
     StageWork inner_work = work;
     inner_work.store = watch.store ? watch.store(stage.name) : nullptr;
     stage.run(answers, inner_work);
+    // What it has freed would count for the next stage too: with sixteen threads three vehicles took 106 MiB
+    // instead of 97.
     give_back_memory();
   }
 }
