@@ -33,9 +33,9 @@ class SafeRows {
   }
 
   [[nodiscard]] bool may_hold(std::int64_t row) {
-    const RowPlace place(grid_, row);
+    const RowPosition position(grid_, row);
     for (std::size_t i = 0; i < grid_.across(); ++i)
-      box_[grid_.state(i)] = enclose(grid_[i].point(place.index[i]));
+      box_[grid_.state(i)] = enclose(grid_[i].point(position.index[i]));
     return safe_.condition(box_) != Truth::no;
   }
 

@@ -17,19 +17,19 @@ namespace {
 /// Writes the sets of the cells of one row.
 template <class Level>
 void write_row(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
-               const LevelRows<Level>& levels, const RowPlace& place, PostReader<Level>& posts,
+               const LevelRows<Level>& levels, const RowPosition& position, PostReader<Level>& posts,
                std::uint8_t* cells) {
   const std::int64_t bytes = grouping[c].bytes();
   RowGroups groups;
-  grouping.group(place, groups);
+  grouping.group(position, groups);
   std::vector<Word> members(controller.engine->row_words());
   std::vector<std::vector<Word>> projection(groups.classes[c]->size(), std::vector<Word>(members.size(), 0));
   TupleWalk::Candidates candidates;
   choose_groups(groups, GroupChoice::all, candidates);
   TupleWalk tuple;
-  tuple.begin(grouping, place, groups, candidates);
+  tuple.begin(grouping, position, groups, candidates);
   do {
-    controller_row(controller, levels, place.row, tuple, posts, controller.engine->all_lanes(), members);
+    controller_row(controller, levels, position.row, tuple, posts, controller.engine->all_lanes(), members);
     std::vector<Word>& target = projection[tuple.chosen(c)];
     for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
   } while (tuple.next());
@@ -50,12 +50,12 @@ std::vector<std::uint8_t> action_bits(const Controller& controller, const Action
   std::vector<std::uint8_t> result(static_cast<std::size_t>((last_row - first_row) * length * bytes), 0);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     PostReader<Level> posts(*controller.engine, levels);
-    RowPlace place(controller.engine->grid(), first_row);
-    for (; place.row < last_row; place.advance(controller.engine->grid())) {
-      if (!any_set(controller.invariant->row(place.row))) continue;
-      posts.enter(place.row);
-      write_row(controller, grouping, c, levels, place, posts,
-                result.data() + (place.row - first_row) * length * bytes);
+    RowPosition position(controller.engine->grid(), first_row);
+    for (; position.row < last_row; position.advance(controller.engine->grid())) {
+      if (!any_set(controller.invariant->row(position.row))) continue;
+      posts.enter(position.row);
+      write_row(controller, grouping, c, levels, position, posts,
+                result.data() + (position.row - first_row) * length * bytes);
     }
   });
   return result;

@@ -39,18 +39,18 @@ ForbiddenChoices::ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& t
   pairs_.emplace_back(engine, classes, std::vector<ActionSource>{source}, team);
 }
 
-bool ForbiddenChoices::find(const RowPlace& place, const RowGroups& groups,
+bool ForbiddenChoices::find(const RowPosition& position, const RowGroups& groups,
                             const std::vector<std::vector<Word>>& masks, Workspace& work,
                             std::vector<Word>& found) const {
   if (permitted_ == nullptr) return false;
   const ActionGrouping& pairs = pairs_.front();
-  pairs.group(place, work.groups);
+  pairs.group(position, work.groups);
   work.masks.resize(pairs.size());
   work.open.resize(pairs.size() + 1);
   for (std::size_t c = 0; c < pairs.size(); ++c) join_groups(c, *groups.classes[c], masks[c], work);
   work.open.front().assign(found.size(), ~Word{0});
   std::ranges::fill(found, Word{0});
-  add(0, pairs.sources().front().base(place), work, found);
+  add(0, pairs.sources().front().base(position), work, found);
   return any_set(found);
 }
 

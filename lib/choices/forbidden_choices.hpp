@@ -42,7 +42,7 @@ class ForbiddenChoices {
   /// @param masks [class][group * words + word]: the cells in whose projection a group is
   /// @param found a row of bits; all 0 if there are no such cells
   /// @returns whether there are such cells
-  bool find(const RowPlace& place, const RowGroups& groups, const std::vector<std::vector<Word>>& masks,
+  bool find(const RowPosition& position, const RowGroups& groups, const std::vector<std::vector<Word>>& masks,
             Workspace& work, std::vector<Word>& found) const;
 
  private:

@@ -39,15 +39,15 @@ IndependentActions<Level>::IndependentActions(const Projections& projections, co
       work_(static_cast<std::size_t>(workers)) {}
 
 template <class Level>
-bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old,
-                                            Level* next, int worker) {
+bool IndependentActions<Level>::next_levels(const RowPosition& position, PostReader<Level>& posts,
+                                            const Level* old, Level* next, int worker) {
   Workspace& work = work_[static_cast<std::size_t>(worker)];
   constexpr Level kTop = PostReader<Level>::kTop;
   if (lost_levels_ == LostLevels::flag) {
     if (!is_open(old, posts.lanes())) return false;
     const auto lost_or_not = [](Level level) { return level == kTop ? kTop : Level{0}; };
     std::transform(old, old + posts.lanes(), next, lost_or_not);
-    lower(place, posts, next, work);
+    lower(position, posts, next, work);
     std::transform(next, next + posts.lanes(), next, lost_or_not);
     return true;
   }
@@ -55,42 +55,42 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
   std::transform(old, old + posts.lanes(), next, [](Level level) {
     return level == 0 || level == kTop ? level : static_cast<Level>(level - 1);
   });
-  lower(place, posts, next, work);
+  lower(position, posts, next, work);
   return true;
 }
 
 template <class Level>
-void IndependentActions<Level>::find_minimum(const RowPlace& place, PostReader<Level>& posts, Level* next,
-                                             int worker) {
+void IndependentActions<Level>::find_minimum(const RowPosition& position, PostReader<Level>& posts,
+                                             Level* next, int worker) {
   std::fill_n(next, posts.lanes(), PostReader<Level>::kTop);
-  lower(place, posts, next, work_[static_cast<std::size_t>(worker)]);
+  lower(position, posts, next, work_[static_cast<std::size_t>(worker)]);
 }
 
 template <class Level>
-void IndependentActions<Level>::lower(const RowPlace& place, PostReader<Level>& posts, Level* next,
+void IndependentActions<Level>::lower(const RowPosition& position, PostReader<Level>& posts, Level* next,
                                       Workspace& work) const {
-  switch (projections_.form(place.row)) {
+  switch (projections_.form(position.row)) {
     case Projections::Form::product:
-      lower_by_boxes(place, posts, next, work);
+      lower_by_boxes(position, posts, next, work);
       break;
     case Projections::Form::full:
-      grouping_.group(place, work.groups);
-      lower_by_all(place, posts, next, work);
+      grouping_.group(position, work.groups);
+      lower_by_all(position, posts, next, work);
       break;
     case Projections::Form::masks:
-      grouping_.group(place, work.groups);
-      lower_by_projections(place, posts, next, work);
+      grouping_.group(position, work.groups);
+      lower_by_projections(position, posts, next, work);
   }
-  for_each_bit(projections_.forbidden(place.row), [next](std::int64_t x) { next[x] = 0; });
+  for_each_bit(projections_.forbidden(position.row), [next](std::int64_t x) { next[x] = 0; });
 }
 
 template <class Level>
-void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next,
-                                               Workspace& work) const {
+void IndependentActions<Level>::lower_by_boxes(const RowPosition& position, PostReader<Level>& posts,
+                                               Level* next, Workspace& work) const {
   const RowEngine& engine = grouping_.engine();
-  IndependentPosts::unpack(projections_.packed(place.row), boxes_, grouping_.size(), engine.row_words(),
+  IndependentPosts::unpack(projections_.packed(position.row), boxes_, grouping_.size(), engine.row_words(),
                            work.row);
-  work.is_moved = projections_.find_shift(place.row, work.shift);
+  work.is_moved = projections_.find_shift(position.row, work.shift);
   work.box.resize(engine.grid());
   work.labels = nullptr;
   for (std::size_t p = 0; p < work.row.subsets.size(); ++p) {
@@ -149,32 +149,32 @@ void IndependentActions<Level>::lower_by_box(const IndependentPosts::Subset& sub
 }
 
 template <class Level>
-void IndependentActions<Level>::lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next,
-                                             Workspace& work) const {
+void IndependentActions<Level>::lower_by_all(const RowPosition& position, PostReader<Level>& posts,
+                                             Level* next, Workspace& work) const {
   choose_groups(work.groups, GroupChoice::maximal, work.candidates);
   work.lanes_of_others.assign(posts.lanes(), PostReader<Level>::kTop);
-  lower_by_tuples(place, {.number = place.row, .is_full = true, .posts = posts, .next = next}, work);
+  lower_by_tuples(position, {.number = position.row, .is_full = true, .posts = posts, .next = next}, work);
 }
 
 template <class Level>
-void IndependentActions<Level>::lower_by_projections(const RowPlace& place, PostReader<Level>& posts,
+void IndependentActions<Level>::lower_by_projections(const RowPosition& position, PostReader<Level>& posts,
                                                      Level* next, Workspace& work) const {
   work.worst.resize(grouping_.size());
   work.candidates.clear();
   for (std::size_t c = 0; c < grouping_.size(); ++c) {
-    find_worst(place.row, work.groups, c, work.worst[c]);
+    find_worst(position.row, work.groups, c, work.worst[c]);
     if (work.worst[c].empty()) return;
     work.candidates.emplace_back(work.worst[c]);
   }
   work.lanes.resize(posts.lanes(), 0);
   work.lanes_of_others.resize(posts.lanes(), 0);
-  lower_by_tuples(place, {.number = place.row, .is_full = false, .posts = posts, .next = next}, work);
+  lower_by_tuples(position, {.number = position.row, .is_full = false, .posts = posts, .next = next}, work);
 }
 
 template <class Level>
-void IndependentActions<Level>::lower_by_tuples(const RowPlace& place, const Row& row,
+void IndependentActions<Level>::lower_by_tuples(const RowPosition& position, const Row& row,
                                                 Workspace& work) const {
-  work.tuple.begin(grouping_, place, work.groups, work.candidates, fastest_);
+  work.tuple.begin(grouping_, position, work.groups, work.candidates, fastest_);
   do {
     if (!is_open(row.next, row.posts.lanes())) return;
     if (!row.is_full && !is_some_reasonable(row, work)) continue;

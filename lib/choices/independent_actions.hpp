@@ -28,11 +28,11 @@ class IndependentActions final : public RowOperator<Level> {
   IndependentActions(const Projections& projections, const CellSet& invariant, int workers,
                      LostLevels lost_levels = LostLevels::steps);
 
-  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+  bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override;
   [[nodiscard]] bool is_minimum() const override { return true; }
   /// Finds the least level of all posts under IND_C, for every cell of the row.
-  void find_minimum(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker);
+  void find_minimum(const RowPosition& position, PostReader<Level>& posts, Level* next, int worker);
 
  private:
   struct Workspace {
@@ -61,8 +61,9 @@ class IndependentActions final : public RowOperator<Level> {
   };
 
   /// Lowers `next`, which is nowhere below it, to the minimum.
-  void lower(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
-  void lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
+  void lower(const RowPosition& position, PostReader<Level>& posts, Level* next, Workspace& work) const;
+  void lower_by_boxes(const RowPosition& position, PostReader<Level>& posts, Level* next,
+                      Workspace& work) const;
   /// Whether some of these lanes can still be lowered to a level that makes a difference.
   [[nodiscard]] bool is_open(const Level* next, std::size_t lanes) const {
     return lost_levels_ == LostLevels::steps ||
@@ -73,10 +74,11 @@ class IndependentActions final : public RowOperator<Level> {
                       Level* next, Workspace& work) const;
   void lower_by_box(const IndependentPosts::Subset& subset, PostReader<Level>& posts, Level* next,
                     Workspace& work) const;
-  void lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
-  void lower_by_projections(const RowPlace& place, PostReader<Level>& posts, Level* next,
+  void lower_by_all(const RowPosition& position, PostReader<Level>& posts, Level* next,
+                    Workspace& work) const;
+  void lower_by_projections(const RowPosition& position, PostReader<Level>& posts, Level* next,
                             Workspace& work) const;
-  void lower_by_tuples(const RowPlace& place, const Row& row, Workspace& work) const;
+  void lower_by_tuples(const RowPosition& position, const Row& row, Workspace& work) const;
   [[nodiscard]] bool is_some_reasonable(const Row& row, Workspace& work) const;
   void lower_by_several(const Row& row, std::size_t begin, std::size_t end, LaneRange lanes,
                         Workspace& work) const;

@@ -31,17 +31,17 @@ class SomeAction final : public RowOperator<Level> {
   SomeAction(const ActionGrouping& grouping, bool rises, int workers)
       : grouping_(grouping), rises_(rises), work_(static_cast<std::size_t>(workers)) {}
 
-  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+  bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override {
     JointWorkspace<Level>& work = work_[static_cast<std::size_t>(worker)];
     const LevelKernels<Level>& kernels = posts.kernels();
     const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
     std::fill_n(next, posts.lanes(), Level{0});
-    grouping_.group(place, work.groups);
+    grouping_.group(position, work.groups);
     // An action is not needed if another one of its class has a smaller post and is allowed at the same
     // cells.
     choose_groups(work.groups, GroupChoice::minimal, work.candidates);
-    work.tuple.begin(grouping_, place, work.groups, work.candidates);
+    work.tuple.begin(grouping_, position, work.groups, work.candidates);
     LaneRange open = grouping_.engine().all_lanes();
     // Rows that are cut are read as a whole: to read fewer lanes only cost there.
     const bool is_cut = grouping_.engine().posts().is_cut();
@@ -96,16 +96,16 @@ class EveryAction final : public RowOperator<Level> {
   EveryAction(const ActionGrouping& grouping, bool rises, int workers)
       : grouping_(grouping), rises_(rises), work_(static_cast<std::size_t>(workers)) {}
 
-  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* /*old*/, Level* next,
+  bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* /*old*/, Level* next,
                    int worker) override {
     JointWorkspace<Level>& work = work_[static_cast<std::size_t>(worker)];
     const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
     work.lanes.assign(posts.lanes(), static_cast<Level>(-1));
     work.some_allowed.assign(grouping_.engine().row_words(), 0);
     std::fill_n(next, posts.lanes(), PostReader<Level>::kTop);
-    grouping_.group(place, work.groups);
+    grouping_.group(position, work.groups);
     choose_groups(work.groups, GroupChoice::maximal, work.candidates);
-    work.tuple.begin(grouping_, place, work.groups, work.candidates);
+    work.tuple.begin(grouping_, position, work.groups, work.candidates);
     do {
       const ConstRow allowed = work.tuple.allowed();
       if (!allowed.empty()) {

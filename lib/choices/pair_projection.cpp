@@ -45,12 +45,12 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
   box_.resize(engine_.grid());
 }
 
-void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
+void PairProjection::find_masks(const RowPosition& position, const RowGroups& groups,
                                 std::vector<std::vector<Word>>& masks) {
   REQUIRES(applies_ && !boxes_.has_gone() && engine_.allow() == nullptr);
   REQUIRES(controller_.synthesis == Synthesis::maximal && !controller_.approaches);
-  const ConstRow invariant = controller_.invariant->row(place.row);
-  enter_unit(place, *groups.classes[leader_]);
+  const ConstRow invariant = controller_.invariant->row(position.row);
+  enter_unit(position, *groups.classes[leader_]);
   row_boxes_.clear();
   row_lists_.clear();
   list(groups, leader_, invariant, leaders_);
@@ -71,8 +71,8 @@ void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
   }
 }
 
-void PairProjection::enter_unit(const RowPlace& place, const ActionGroups& groups) {
-  const std::int64_t unit = place.row / unit_rows_;
+void PairProjection::enter_unit(const RowPosition& position, const ActionGroups& groups) {
+  const std::int64_t unit = position.row / unit_rows_;
   if (leading_ == 0 || unit == unit_) return;
   unit_ = unit;
   planes_.resize(groups.size());

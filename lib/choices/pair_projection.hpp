@@ -32,7 +32,8 @@ class PairProjection {
   /// Sets masks[class][group * words, ...] to {x in the row : group is in the projection of C(x)}.
   /// @pre applies(), `boxes` has none that are gone, everything is allowed, and C is maximal.
   /// @pre unchecked: `boxes` has been filled for this row
-  void find_masks(const RowPlace& place, const RowGroups& groups, std::vector<std::vector<Word>>& masks);
+  void find_masks(const RowPosition& position, const RowGroups& groups,
+                  std::vector<std::vector<Word>>& masks);
 
  private:
   /// {y : the leader's box x {y} in K} for the rows of a unit, continued beyond the ends as levels are.
@@ -63,7 +64,7 @@ class PairProjection {
   };
 
   void find_beyond();
-  void enter_unit(const RowPlace& place, const ActionGroups& groups);
+  void enter_unit(const RowPosition& position, const ActionGroups& groups);
   [[nodiscard]] const Plane& plane(std::uint32_t group);
   [[nodiscard]] const std::vector<Word>& continued(std::int64_t row);
   void continue_row(ConstRow row, Word* out) const;

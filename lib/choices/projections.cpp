@@ -58,21 +58,21 @@ class Projections::Builder {
         masks_(grouping.size()) {}
 
   /// @returns the projections of a row, valid until the next call
-  Found project(const RowPlace& place) {
-    posts_.enter(place.row);
-    if (rules_ != nullptr) return project_by_rules(place);
-    const ConstRow invariant = controller_.invariant->row(place.row);
-    grouping_.group(place, groups_);
-    const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
+  Found project(const RowPosition& position) {
+    posts_.enter(position.row);
+    if (rules_ != nullptr) return project_by_rules(position);
+    const ConstRow invariant = controller_.invariant->row(position.row);
+    grouping_.group(position, groups_);
+    const bool is_product = boxes_.is_product() && boxes_.fill(position, groups_);
     is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
                  controller_.synthesis == Synthesis::maximal && !controller_.approaches;
     box_.resize(controller_.engine->grid());
     if (is_simple_ && pair_.applies()) {
-      pair_.find_masks(place, groups_, masks_);
+      pair_.find_masks(position, groups_, masks_);
     } else {
-      for (std::size_t c = 0; c < masks_.size(); ++c) find_masks(place, c);
+      for (std::size_t c = 0; c < masks_.size(); ++c) find_masks(position, c);
     }
-    Found found{.row = place.row, .is_full = is_full(invariant)};
+    Found found{.row = position.row, .is_full = is_full(invariant)};
     if (is_product) {
       packed_.clear();
       independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), packed_);
@@ -82,7 +82,7 @@ class Projections::Builder {
       join_masks();
       found.masks = joined_masks_;
     }
-    if (choices_.find(place, groups_, masks_, work_, forbidden_)) found.forbidden = forbidden_;
+    if (choices_.find(position, groups_, masks_, work_, forbidden_)) found.forbidden = forbidden_;
     return found;
   }
 
@@ -98,15 +98,15 @@ class Projections::Builder {
     });
   }
 
-  Found project_by_rules(const RowPlace& place) {
-    Found found{.row = place.row};
-    grouping_.group(place, groups_);
+  Found project_by_rules(const RowPosition& position) {
+    Found found{.row = position.row};
+    grouping_.group(position, groups_);
     // A class whose post has left for good fits all actions of the others.
-    const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_) && !boxes_.has_gone();
+    const bool is_product = boxes_.is_product() && boxes_.fill(position, groups_) && !boxes_.has_gone();
     is_simple_ = false;
-    const ConstRow cells = rules_->cells->row(place.row);
-    find_ruled(place, cells);
-    if (!choices_.find(place, groups_, masks_, work_, forbidden_))
+    const ConstRow cells = rules_->cells->row(position.row);
+    find_ruled(position, cells);
+    if (!choices_.find(position, groups_, masks_, work_, forbidden_))
       std::fill(forbidden_.begin(), forbidden_.end(), 0);
     for (std::size_t w = 0; w < cells.size(); ++w) forbidden_[w] |= cells[w] & ~members_[w];
     if (is_product) {
@@ -123,19 +123,19 @@ class Projections::Builder {
   }
 
   /// Finds the masks of all classes, and in `members_` the cells where each class has an action.
-  void find_ruled(const RowPlace& place, ConstRow cells) {
+  void find_ruled(const RowPosition& position, ConstRow cells) {
     std::vector<Word> all(cells.begin(), cells.end()), any(cells.size());
     for (std::size_t c = 0; c < masks_.size(); ++c) {
       const ClassRules& rules = rules_->classes[c];
-      rules.asks_controller ? find_masks(place, c) : fill_masks(c, cells);
+      rules.asks_controller ? find_masks(position, c) : fill_masks(c, cells);
       std::fill(any.begin(), any.end(), 0);
       for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
         Word* const mask = masks_[c].data() + g * cells.size();
         for (std::size_t w = 0; w < cells.size(); ++w) mask[w] &= cells[w];
-        for (const std::size_t t : rules.sources) keep(permitted(place, c, g, t), mask);
+        for (const std::size_t t : rules.sources) keep(permitted(position, c, g, t), mask);
         for (std::size_t w = 0; w < cells.size(); ++w) any[w] |= mask[w];
       }
-      if (rules_->without_action != nullptr) count_without_action(place, c, any, all);
+      if (rules_->without_action != nullptr) count_without_action(position, c, any, all);
       keep(any, all.data());
     }
     members_ = std::move(all);
@@ -146,7 +146,7 @@ class Projections::Builder {
   }
 
   /// Counts the cells of `all` that are not in `any`: class c has no action there.
-  void count_without_action(const RowPlace& place, std::size_t c, ConstRow any,
+  void count_without_action(const RowPosition& position, std::size_t c, ConstRow any,
                             const std::vector<Word>& all) const {
     std::vector<Word> without_action(all);
     for (std::size_t w = 0; w < any.size(); ++w) without_action[w] &= ~any[w];
@@ -161,7 +161,7 @@ class Projections::Builder {
     for (std::size_t k = 0; k < rules.sources.size(); ++k) {
       std::vector<Word> nothing(all.size(), ~Word{0});
       for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
-        const ConstRow cells = permitted(place, c, g, rules.sources[k]);
+        const ConstRow cells = permitted(position, c, g, rules.sources[k]);
         for (std::size_t w = 0; w < cells.size(); ++w) nothing[w] &= ~cells[w];
       }
       count(rules.agents[k], nothing);
@@ -169,10 +169,10 @@ class Projections::Builder {
     count(rules.agent, std::vector<Word>(all.size(), ~Word{0}));
   }
 
-  [[nodiscard]] ConstRow permitted(const RowPlace& place, std::size_t c, std::size_t g,
+  [[nodiscard]] ConstRow permitted(const RowPosition& position, std::size_t c, std::size_t g,
                                    std::size_t source) const {
     const std::uint32_t action = groups_.classes[c]->representative[g];
-    return rules_->tables[source]->row(grouping_.sources()[source].base(place) +
+    return rules_->tables[source]->row(grouping_.sources()[source].base(position) +
                                        grouping_.contribution(c, source, action));
   }
 
@@ -202,19 +202,19 @@ class Projections::Builder {
   }
 
   /// Finds the masks of class c, larger posts first: where they are reasonable, those inside them are, too.
-  void find_masks(const RowPlace& place, std::size_t c) {
+  void find_masks(const RowPosition& position, std::size_t c) {
     const ActionGroups& groups = *groups_.classes[c];
     masks_[c].assign(groups.size() * members_.size(), 0);
     known_.assign(groups.size(), 0);
-    for (const std::uint32_t g : groups.maximal) find_mask(place, c, g);
+    for (const std::uint32_t g : groups.maximal) find_mask(position, c, g);
     for (const std::uint32_t g : groups.all) {
-      if (known_[g] == 0) find_mask(place, c, g);
+      if (known_[g] == 0) find_mask(position, c, g);
     }
   }
 
-  void find_mask(const RowPlace& place, std::size_t c, std::uint32_t g) {
+  void find_mask(const RowPosition& position, std::size_t c, std::uint32_t g) {
     const ActionGroups& groups = *groups_.classes[c];
-    const ConstRow invariant = controller_.invariant->row(place.row);
+    const ConstRow invariant = controller_.invariant->row(position.row);
     const MutableRow mask(masks_[c].data() + g * members_.size(), members_.size());
     for (const std::uint32_t h : groups.maximal) {
       if (known_[h] == 0 || !groups.is_within(g, h)) continue;
@@ -228,13 +228,13 @@ class Projections::Builder {
     choose_groups(groups_, GroupChoice::minimal, candidates_);
     candidates_[c] = {&g, 1};
     if (is_simple_) {
-      add_boxes(0, place, mask);
+      add_boxes(0, position, mask);
       return;
     }
-    tuple_.begin(grouping_, place, groups_, candidates_);
+    tuple_.begin(grouping_, position, groups_, candidates_);
     LaneRange missing = missing_lanes(reachable_, mask);
     do {
-      controller_row(controller_, levels_, place.row, tuple_, posts_, missing, members_);
+      controller_row(controller_, levels_, position.row, tuple_, posts_, missing, members_);
       for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w];
       missing = missing_lanes(reachable_, mask);
     } while (missing.size() > 0 && tuple_.next());
@@ -257,8 +257,8 @@ class Projections::Builder {
 
   /// Adds to `mask` the cells whose post is in K, for all candidates of class c and the classes after it.
   /// @returns false if no more cells can be found
-  bool add_boxes(std::size_t c, const RowPlace& place, MutableRow mask) {
-    const ConstRow invariant = controller_.invariant->row(place.row);
+  bool add_boxes(std::size_t c, const RowPosition& position, MutableRow mask) {
+    const ConstRow invariant = controller_.invariant->row(position.row);
     if (c == candidates_.size()) {
       const auto n = static_cast<std::size_t>(controller_.engine->row_length());
       posts_.kernels().top_bits(posts_.minimum(box_), members_.data(), n);
@@ -268,7 +268,7 @@ class Projections::Builder {
     for (const std::uint32_t g : candidates_[c]) {
       if (boxes_.kind(c, g) == RowBoxes::Kind::blocked) continue;
       boxes_.put(c, boxes_.ranges(c, g), box_);
-      if (!add_boxes(c + 1, place, mask)) return false;
+      if (!add_boxes(c + 1, position, mask)) return false;
     }
     return true;
   }
@@ -326,11 +326,12 @@ void Projections::find_all(const Controller& controller, ThreadTeam& team, const
       builders.emplace_back(controller, *grouping_, choices, levels, posts, rules, keeps_masks);
     posts.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        const std::uint32_t number = number_[static_cast<std::size_t>(place.row)];
-        if (number == kNothing || of(place.row).row != place.row) continue;
+      for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+           position.advance(engine.grid())) {
+        const std::uint32_t number = number_[static_cast<std::size_t>(position.row)];
+        if (number == kNothing || of(position.row).row != position.row) continue;
         Found& found = found_[number - 1];
-        found = builder.project(place);
+        found = builder.project(position);
         Store& store = stores_[static_cast<std::size_t>(worker)];
         found.packed = store.keep(found.packed);
         found.masks = store.keep(found.masks);

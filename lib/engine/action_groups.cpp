@@ -88,21 +88,21 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
   return view;
 }
 
-const std::uint32_t* ActionGrouping::view_ids(const View& view, const RowPlace& place) const {
+const std::uint32_t* ActionGrouping::view_ids(const View& view, const RowPosition& position) const {
   if (view.all_distinct) return nullptr;
   const ActionSource& source = sources_[view.table];
-  const std::int64_t base = source.base(place);
+  const std::int64_t base = source.base(position);
   if (view.partial.empty()) return source.ids->data() + base;
   return view.partial.data() + base / source.input_combinations * view.width;
 }
 
-ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& place) const {
+ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPosition& position) const {
   ActionGroups groups;
   groups.group_of.assign(static_cast<std::size_t>(data.inputs.actions()), 0);
   std::unordered_map<std::uint64_t, std::uint32_t> numbers;
   if (!fast_paths().grouped_actions) std::iota(groups.group_of.begin(), groups.group_of.end(), 0U);
   for (const View& view : data.views) {
-    const std::uint32_t* ids = view_ids(view, place);
+    const std::uint32_t* ids = view_ids(view, position);
     numbers.clear();
     for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
       const auto combination = static_cast<std::uint32_t>(view.combination[a]);
@@ -114,11 +114,11 @@ ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& 
   for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
     if (groups.group_of[a] == groups.size()) groups.representative.push_back(static_cast<std::uint32_t>(a));
   }
-  compare_groups(data, place, groups);
+  compare_groups(data, position, groups);
   return groups;
 }
 
-void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place,
+void ActionGrouping::compare_groups(const ClassData& data, const RowPosition& position,
                                     ActionGroups& groups) const {
   const std::size_t size = groups.size();
   groups.all.resize(size);
@@ -130,7 +130,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   }
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
-    const std::uint32_t* ids = view_ids(view, place);
+    const std::uint32_t* ids = view_ids(view, position);
     // Numbers of columns, or of rows of `allow`, do not tell which is inside which.
     const RowSlices* slices = view.partial.empty() ? sources_[view.table].slices : nullptr;
     const GridDimension& target = engine_->target(slices == nullptr ? 0 : view.table);
@@ -198,7 +198,7 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
       if (data.state_stride[i] == 0) continue;
       row += choice / data.state_stride[i] % grid[i].count * (grid.stride(i) / grid.row_length());
     }
-    return find_groups(data, RowPlace(grid, row));
+    return find_groups(data, RowPosition(grid, row));
   };
   std::map<std::tuple<std::vector<std::uint32_t>, std::vector<std::uint8_t>>, std::uint32_t> numbers;
   for (std::int64_t first = held.begin; first < held.end; first += kGroupsFoundAtOnce) {
@@ -216,17 +216,17 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
   }
 }
 
-void ActionGrouping::group(const RowPlace& place, RowGroups& groups) const {
+void ActionGrouping::group(const RowPosition& position, RowGroups& groups) const {
   groups.classes.resize(classes_.size());
   groups.unshared.resize(classes_.size());
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     const ClassData& data = classes_[c];
     if (data.shared.empty()) {
-      groups.unshared[c] = find_groups(data, place);
+      groups.unshared[c] = find_groups(data, position);
       groups.classes[c] = &groups.unshared[c];
       continue;
     }
-    const std::int64_t choice = place.offset(data.state_stride) - data.before;
+    const std::int64_t choice = position.offset(data.state_stride) - data.before;
     groups.classes[c] = &data.distinct[data.shared[static_cast<std::size_t>(choice)]];
   }
 }

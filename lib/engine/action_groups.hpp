@@ -60,7 +60,7 @@ class ActionGrouping {
   [[nodiscard]] std::size_t size() const { return classes_.size(); }
   [[nodiscard]] const InputClass& operator[](std::size_t c) const { return classes_[c].inputs; }
 
-  void group(const RowPlace& place, RowGroups& groups) const;
+  void group(const RowPosition& position, RowGroups& groups) const;
 
   [[nodiscard]] const RowEngine& engine() const { return *engine_; }
   /// The tables that tell actions apart: usually the engine's slices in order (posts, then tubes), then
@@ -99,10 +99,10 @@ class ActionGrouping {
   [[nodiscard]] View make_view(std::size_t table, const ClassData& data) const;
   void share_groups(ClassData& data, ThreadTeam& team) const;
   [[nodiscard]] RowShare::Range held_choices(const ClassData& data, std::int64_t choices) const;
-  [[nodiscard]] ActionGroups find_groups(const ClassData& data, const RowPlace& place) const;
-  void compare_groups(const ClassData& data, const RowPlace& place, ActionGroups& groups) const;
+  [[nodiscard]] ActionGroups find_groups(const ClassData& data, const RowPosition& position) const;
+  void compare_groups(const ClassData& data, const RowPosition& position, ActionGroups& groups) const;
   /// [combination] its number in a row; null: each is its own number.
-  [[nodiscard]] const std::uint32_t* view_ids(const View& view, const RowPlace& place) const;
+  [[nodiscard]] const std::uint32_t* view_ids(const View& view, const RowPosition& position) const;
 
   const RowEngine* engine_;
   std::vector<ActionSource> sources_;

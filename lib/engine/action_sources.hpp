@@ -24,7 +24,9 @@ struct ActionSource {
     return all_distinct() ? static_cast<std::uint32_t>(entry) : (*ids)[static_cast<std::size_t>(entry)];
   }
   /// Where the entries of a row of the grid begin.
-  [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride) - before; }
+  [[nodiscard]] std::int64_t base(const RowPosition& position) const {
+    return position.offset(state_stride) - before;
+  }
 };
 
 [[nodiscard]] ActionSource source_of(const PairTable& pairs, const InputSpace& inputs);

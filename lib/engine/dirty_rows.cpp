@@ -24,8 +24,8 @@ bool DirtyRows::is_pending(std::int64_t unit, Scratch& scratch) const {
   if (is_unseen(unit)) return true;
   const std::uint32_t seen = seen_[static_cast<std::size_t>(unit)];
   if (last_change_ < seen) return false;
-  units_.go_to(unit, scratch.place);
-  units_.enclose(hull_, scratch.place, scratch.box.ranges);
+  units_.go_to(unit, scratch.position);
+  units_.enclose(hull_, scratch.position, scratch.box.ranges);
   const auto is_new = [&](const std::vector<std::uint32_t>& changed) {
     return
         [&changed, seen](std::int64_t number) { return changed[static_cast<std::size_t>(number)] >= seen; };
@@ -41,8 +41,8 @@ bool DirtyRows::is_pending(std::int64_t unit, Scratch& scratch) const {
 }
 
 void DirtyRows::enter(std::int64_t unit, Scratch& scratch) const {
-  units_.go_to(unit, scratch.place);
-  units_.enclose(hull_, scratch.place, scratch.box.ranges);
+  units_.go_to(unit, scratch.position);
+  units_.enclose(hull_, scratch.position, scratch.box.ranges);
   scratch.merged.assign(static_cast<std::size_t>(units_.rows()), 0);
   for_each_row(engine_.grid(), 0, scratch.box.ranges, scratch.counter, [&](std::int64_t row) {
     const std::uint32_t* changed = changed_.data() + row;
@@ -51,9 +51,9 @@ void DirtyRows::enter(std::int64_t unit, Scratch& scratch) const {
   });
 }
 
-bool DirtyRows::meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const {
+bool DirtyRows::meets_change(const RowPosition& position, std::int64_t unit, Scratch& scratch) const {
   const std::uint32_t seen = std::max(seen_[static_cast<std::size_t>(unit)], kBeforeAll);
-  hull_.box(place, scratch.box);
+  hull_.box(position, scratch.box);
   const std::size_t outer = units_.dimensions();
   const std::span<const IndexRange> inner(scratch.box.ranges.data() + outer,
                                           scratch.box.ranges.size() - outer);

@@ -22,7 +22,7 @@ namespace coordreq {
 class DirtyRows {
  public:
   struct Scratch {
-    RowPlace place;
+    RowPosition position;
     RowBox box;
     std::vector<std::uint32_t> merged;  ///< [row of the unit] the last change in the shared dimensions
     std::vector<std::int64_t> counter;
@@ -31,7 +31,7 @@ class DirtyRows {
   /// @pre unchecked: all outlive this object.
   DirtyRows(const RowEngine& engine, const RowHull& hull, const RowUnits& units);
 
-  [[nodiscard]] Scratch make_scratch() const { return {units_.first_place(), {}, {}, {}}; }
+  [[nodiscard]] Scratch make_scratch() const { return {units_.first_position(), {}, {}, {}}; }
 
   /// The unit has to be looked at even if no row that it can meet has changed.
   void set_unseen(std::int64_t unit) { seen_[static_cast<std::size_t>(unit)] = kNever; }
@@ -68,7 +68,7 @@ class DirtyRows {
   /// Goes to a unit, whose rows are asked about with this scratch.
   void enter(std::int64_t unit, Scratch& scratch) const;
   /// True if posts of a row of the unit entered can meet a row that has changed since the unit was looked at.
-  [[nodiscard]] bool meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const;
+  [[nodiscard]] bool meets_change(const RowPosition& position, std::int64_t unit, Scratch& scratch) const;
 
  private:
   /// Several rows of one unit may be marked at once, all with the same number.

@@ -19,16 +19,16 @@ RowShare::Range span_of(const UniformGrid& grid, std::span<const IndexRange> ran
 /// From the first to the last number of the rows that posts of a unit can meet.
 RowShare::Range span_met(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows,
                          RowShare::Range rows, RowBox& box) {
-  RowPlace place(engine.grid(), rows.begin);
+  RowPosition position(engine.grid(), rows.begin);
   if (engine.outer() > 0) {
-    hull.box(place, box);
+    hull.box(position, box);
     RowShare::Range span = span_of(engine.grid(), std::span(box.ranges).first(engine.outer()));
     span.end += span.begin == span.end ? 0 : unit_rows - 1;
     return span;
   }
   RowShare::Range all{0, 0};
-  for (; place.row < rows.end; place.advance(engine.grid())) {
-    hull.box(place, box);
+  for (; position.row < rows.end; position.advance(engine.grid())) {
+    hull.box(position, box);
     const RowShare::Range one = span_of(engine.grid(), box.ranges);
     if (one.begin == one.end) continue;
     all = all.begin == all.end ? one

@@ -14,11 +14,11 @@
 namespace coordreq {
 
 /// A row of the grid and where it lies.
-struct RowPlace {
+struct RowPosition {
   std::int64_t row = 0;
   std::vector<std::int64_t> index;  ///< in the dimensions across rows
 
-  RowPlace(const UniformGrid& grid, std::int64_t number) : row(number), index(grid.across()) {
+  RowPosition(const UniformGrid& grid, std::int64_t number) : row(number), index(grid.across()) {
     for (std::size_t i = index.size(); i-- > 0; number /= grid[i].count) index[i] = number % grid[i].count;
   }
 

@@ -29,9 +29,9 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
   base_.resize(engine.tables());
 }
 
-bool RowBoxes::fill(const RowPlace& place, const RowGroups& groups) {
+bool RowBoxes::fill(const RowPosition& position, const RowGroups& groups) {
   REQUIRES(is_product());
-  for (std::size_t t = 0; t < base_.size(); ++t) base_[t] = grouping_.sources()[t].base(place);
+  for (std::size_t t = 0; t < base_.size(); ++t) base_[t] = grouping_.sources()[t].base(position);
   has_gone_ = false;
   for (std::size_t c = 0; c < moved_.size(); ++c) {
     kinds_[c].clear();

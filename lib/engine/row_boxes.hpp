@@ -36,7 +36,7 @@ class RowBoxes {
 
   /// Reads the posts of a row. @returns false if some slice has several segments, or leads all cells of the
   /// row to the same range along it. @pre is_product()
-  bool fill(const RowPlace& place, const RowGroups& groups);
+  bool fill(const RowPosition& position, const RowGroups& groups);
 
   [[nodiscard]] Kind kind(std::size_t c, std::uint32_t g) const { return kinds_[c][g]; }
   /// Ranges of group g in the dimensions that class c moves, in the order of moved(c).

@@ -53,8 +53,8 @@ struct TubeHull {
   const RowSlices* slices;
   std::vector<IndexRange> hulls;
 
-  [[nodiscard]] IndexRange range(const RowPlace& place) const {
-    return hulls[static_cast<std::size_t>(slices->base(place) / slices->input_combinations)];
+  [[nodiscard]] IndexRange range(const RowPosition& position) const {
+    return hulls[static_cast<std::size_t>(slices->base(position) / slices->input_combinations)];
   }
 };
 using TubeHulls = std::vector<TubeHull>;
@@ -83,14 +83,14 @@ RowHull::RowHull(const RowEngine& engine, ThreadTeam* team) : engine_(&engine) {
   }
 }
 
-IndexRange RowHull::range(const RowPlace& place, std::size_t i) const {
+IndexRange RowHull::range(const RowPosition& position, std::size_t i) const {
   const RowSlices& slices = engine_->slices()[i];
-  return hulls_[i][static_cast<std::size_t>(slices.base(place) / slices.input_combinations)];
+  return hulls_[i][static_cast<std::size_t>(slices.base(position) / slices.input_combinations)];
 }
 
-void RowHull::box(const RowPlace& place, RowBox& box) const {
+void RowHull::box(const RowPosition& position, RowBox& box) const {
   box.resize(engine_->grid());
-  for (std::size_t i = 0; i < engine_->tables(); ++i) box[i] = range(place, i);
+  for (std::size_t i = 0; i < engine_->tables(); ++i) box[i] = range(position, i);
 }
 
 std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range rows) const {
@@ -99,13 +99,13 @@ std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range 
   BoxCount boxes(engine_->grid());
   RowBox reached;
   const std::vector<TubeHulls> tubes = hulls_of_tubes(*engine_);
-  RowPlace place(engine_->grid(), rows.begin);
-  for (; place.row < rows.end; place.advance(engine_->grid())) {
-    if (set != nullptr && !any_set(set->row(place.row))) continue;
-    box(place, reached);
+  RowPosition position(engine_->grid(), rows.begin);
+  for (; position.row < rows.end; position.advance(engine_->grid())) {
+    if (set != nullptr && !any_set(set->row(position.row))) continue;
+    box(position, reached);
     boxes.add(reached.ranges);
     for (const TubeHulls& hulls : tubes) {
-      for (std::size_t i = 0; i < hulls.size(); ++i) reached.ranges[i] = hulls[i].range(place);
+      for (std::size_t i = 0; i < hulls.size(); ++i) reached.ranges[i] = hulls[i].range(position);
       boxes.add(reached.ranges);
     }
   }

@@ -19,9 +19,9 @@ class RowHull {
   explicit RowHull(const RowEngine& engine, ThreadTeam* team = nullptr);
 
   /// box = the box of the posts of a row.
-  void box(const RowPlace& place, RowBox& box) const;
+  void box(const RowPosition& position, RowBox& box) const;
   /// The range or window of that box in dimension i.
-  [[nodiscard]] IndexRange range(const RowPlace& place, std::size_t i) const;
+  [[nodiscard]] IndexRange range(const RowPosition& position, std::size_t i) const;
   /// range() for a choice of the states that the table of dimension i uses.
   [[nodiscard]] IndexRange range_of(std::size_t choice, std::size_t i) const { return hulls_[i][choice]; }
 

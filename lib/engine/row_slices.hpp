@@ -61,7 +61,9 @@ struct RowSlices {
   std::optional<SumRows> sums;
 
   /// The first position of a row. @pre unchecked: the row is held
-  [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride) - before; }
+  [[nodiscard]] std::int64_t base(const RowPosition& position) const {
+    return position.offset(state_stride) - before;
+  }
   /// Number of positions.
   [[nodiscard]] std::int64_t size() const {
     return sums ? sums->size() : static_cast<std::int64_t>(ids.size());

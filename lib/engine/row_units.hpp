@@ -30,18 +30,19 @@ class RowUnits {
   [[nodiscard]] std::int64_t count() const { return grid_.rows() / rows_; }
   [[nodiscard]] std::int64_t of(std::int64_t row) const { return row / rows_; }
 
-  [[nodiscard]] RowPlace first_place() const { return {grid_, 0}; }
-  /// place = the first row of a unit.
-  void go_to(std::int64_t unit, RowPlace& place) const {
-    place.row = unit * rows_;
-    for (std::size_t i = dimensions_; i < place.index.size(); ++i) place.index[i] = 0;
-    for (std::size_t i = dimensions_; i-- > 0; unit /= grid_[i].count) place.index[i] = unit % grid_[i].count;
+  [[nodiscard]] RowPosition first_position() const { return {grid_, 0}; }
+  /// position = the first row of a unit.
+  void go_to(std::int64_t unit, RowPosition& position) const {
+    position.row = unit * rows_;
+    for (std::size_t i = dimensions_; i < position.index.size(); ++i) position.index[i] = 0;
+    for (std::size_t i = dimensions_; i-- > 0; unit /= grid_[i].count)
+      position.index[i] = unit % grid_[i].count;
   }
   /// ranges = the rows that a unit can meet, in the leading dimensions: there the box is the same for all of
-  /// its rows. In others the first row may have none, as it need not be held. @param place go_to()
-  void enclose(const RowHull& hull, const RowPlace& place, std::vector<IndexRange>& ranges) const {
+  /// its rows. In others the first row may have none, as it need not be held. @param position go_to()
+  void enclose(const RowHull& hull, const RowPosition& position, std::vector<IndexRange>& ranges) const {
     ranges.clear();
-    for (std::size_t i = 0; i < dimensions_; ++i) ranges.push_back(hull.range(place, i));
+    for (std::size_t i = 0; i < dimensions_; ++i) ranges.push_back(hull.range(position, i));
   }
   /// Whether `test(unit)` is true for some unit of a box; stops at the first. @param ranges enclose()
   template <class Test>

@@ -20,14 +20,14 @@ class SparingOperator final : public RowOperator<Level> {
   SparingOperator(std::unique_ptr<RowOperator<Level>> others, const CellSet& spared, int workers)
       : others_(std::move(others)), spared_(spared), old_(static_cast<std::size_t>(workers)) {}
 
-  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+  bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override {
-    const ConstRow spared = spared_.row(place.row);
-    if (!any_set(spared)) return others_->next_levels(place, posts, old, next, worker);
+    const ConstRow spared = spared_.row(position.row);
+    if (!any_set(spared)) return others_->next_levels(position, posts, old, next, worker);
     std::vector<Level>& rest = old_[static_cast<std::size_t>(worker)];
     rest.assign(old, old + posts.lanes());
     for_each_bit(spared, [&rest](std::int64_t x) { rest[static_cast<std::size_t>(x)] = 0; });
-    if (!others_->next_levels(place, posts, rest.data(), next, worker)) return false;
+    if (!others_->next_levels(position, posts, rest.data(), next, worker)) return false;
     for_each_bit(spared, [next](std::int64_t x) { next[x] = PostReader<Level>::kTop; });
     return true;
   }

@@ -13,17 +13,17 @@ constexpr std::int64_t kLeastRows = 32;
 /// Finds the fronts of units.
 class Fronts {
  public:
-  Fronts(const RowUnits& units, const RowHull& hull, const RowSymmetry* symmetry, RowPlace first)
+  Fronts(const RowUnits& units, const RowHull& hull, const RowSymmetry* symmetry, RowPosition first)
       : units_(units),
         hull_(hull),
         symmetry_(symmetry),
         front_(static_cast<std::size_t>(units.count()), 0),
-        place_(std::move(first)) {}
+        position_(std::move(first)) {}
 
   /// To be called in order. @returns the front of a unit, from 1 on
   std::uint32_t find(std::int64_t unit) {
-    units_.go_to(unit, place_);
-    units_.enclose(hull_, place_, ranges_);
+    units_.go_to(unit, position_);
+    units_.enclose(hull_, position_, ranges_);
     std::uint32_t last = 0;
     static_cast<void>(units_.any_in(ranges_, counter_, [&](std::int64_t other) {
       last = std::max(last, front_[static_cast<std::size_t>(other)]);
@@ -38,7 +38,7 @@ class Fronts {
   void set(std::int64_t unit, std::uint32_t front) {
     front_[static_cast<std::size_t>(unit)] = front;
     if (symmetry_ == nullptr) return;
-    symmetry_->for_each_permuted(place_.row, [&](std::int64_t row) {
+    symmetry_->for_each_permuted(position_.row, [&](std::int64_t row) {
       std::uint32_t& other = front_[static_cast<std::size_t>(units_.of(row))];
       other = std::max(other, front);
     });
@@ -48,7 +48,7 @@ class Fronts {
   const RowHull& hull_;
   const RowSymmetry* symmetry_;
   std::vector<std::uint32_t> front_;  ///< [unit] 0: not found yet
-  RowPlace place_;
+  RowPosition position_;
   std::vector<IndexRange> ranges_;
   std::vector<std::int64_t> counter_;
 };
@@ -58,7 +58,7 @@ class Fronts {
 SweepOrder::SweepOrder(const RowUnits& units, const RowHull& hull, const AliveRows& alive,
                        std::int64_t first_unit, std::int64_t count, bool backwards,
                        const RowSymmetry* symmetry, std::int64_t most_rows) {
-  Fronts fronts(units, hull, symmetry, units.first_place());
+  Fronts fronts(units, hull, symmetry, units.first_position());
   std::vector<std::uint32_t> front_of(static_cast<std::size_t>(count), 0);  // 0: nothing alive
   std::vector<std::size_t> end(1, 0);                                       // [front] units up to it
   std::vector<std::int64_t> rows(1, 0);                                     // [front]

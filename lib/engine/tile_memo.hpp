@@ -57,14 +57,14 @@ class TileMemo {
     });
   }
 
-  /// Asks about the tile that begins at `place`, to be computed. @param turn ascends in the order in which
+  /// Asks about the tile that begins at `position`, to be computed. @param turn ascends in the order in which
   /// tiles are computed in the sweep, so that the answer is the same for any number of threads
   /// @returns what first() takes
-  [[nodiscard]] std::uint32_t ask(const RowPlace& place, std::int64_t turn, Scratch& scratch) {
-    const std::int64_t tile = place.row / rows();
+  [[nodiscard]] std::uint32_t ask(const RowPosition& position, std::int64_t turn, Scratch& scratch) {
+    const std::int64_t tile = position.row / rows();
     scratch.key.assign(1, (*equal_.numbers)[static_cast<std::size_t>(tile)]);
     equal_.tiles->add_contents(
-        place,
+        position,
         [this](std::int64_t other) {
           return rows() == 1 ? levels_.content(other) : contents_[static_cast<std::size_t>(other)];
         },

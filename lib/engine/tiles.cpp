@@ -112,9 +112,10 @@ Numbers Tiles::number_choices(std::size_t t) const {
 void Tiles::add_tables(std::int64_t tile, Numbers& list) const {
   const std::int64_t first = tile * rows_;
   for (const Source& source : sources_) {
-    RowPlace place(engine_->grid(), first);
-    for (; place.row < first + (source.by_rows ? rows_ : 1); place.advance(engine_->grid())) {
-      const std::int64_t choice = (place.offset(*source.state_stride) - source.before) / source.combinations;
+    RowPosition position(engine_->grid(), first);
+    for (; position.row < first + (source.by_rows ? rows_ : 1); position.advance(engine_->grid())) {
+      const std::int64_t choice =
+          (position.offset(*source.state_stride) - source.before) / source.combinations;
       list.push_back(source.numbers[static_cast<std::size_t>(choice)]);
     }
   }
@@ -136,8 +137,8 @@ void Tiles::number_tables(ThreadTeam* team) {
 void Tiles::find_shift(std::int64_t from, std::int64_t to, std::vector<std::int32_t>& shift) const {
   shift.assign(engine_->tables(), 0);
   if (from == to) return;
-  const RowPlace one(engine_->grid(), from);
-  const RowPlace other(engine_->grid(), to);
+  const RowPosition one(engine_->grid(), from);
+  const RowPosition other(engine_->grid(), to);
   for (std::size_t t = 0; t < leading_; ++t)
     shift[t] = hull_->range(other, t).first - hull_->range(one, t).first;
 }
@@ -162,7 +163,7 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content, ThreadTeam
     for (std::int64_t tile = own_.begin + range.begin; tile < own_.begin + range.end; ++tile) {
       list.assign(1, before[static_cast<std::size_t>(tile)]);
       add_contents(
-          RowPlace(engine_->grid(), tile * rows_),
+          RowPosition(engine_->grid(), tile * rows_),
           [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
       result[static_cast<std::size_t>(tile)] = lists.number(list);
     }
@@ -188,9 +189,10 @@ double Tiles::fraction_different(const Numbers& content) const {
   for (std::int64_t tile = own_.begin; tile < own_.end; tile += step, ++drawn) {
     list.clear();
     add_tables(tile, list);
-    const RowPlace place(engine_->grid(), tile * rows_);
+    const RowPosition position(engine_->grid(), tile * rows_);
     add_contents(
-        place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
+        position, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch,
+        list);
     static_cast<void>(lists.number(list));
   }
   return static_cast<double>(lists.size()) / static_cast<double>(drawn);

@@ -55,13 +55,14 @@ class Tiles {
   /// [tile] Equal numbers where the tables are equal, seen from the tiles.
   [[nodiscard]] const Numbers& tables() const { return tables_; }
 
-  /// Appends the content of the tile that begins at `place`, and of the tiles that its posts can meet.
+  /// Appends the content of the tile that begins at `position`, and of the tiles that its posts can meet.
   /// @param content called with a tile: the number of its content
   template <class Content>
-  void add_contents(const RowPlace& place, const Content& content, Scratch& scratch, Numbers& list) const {
-    list.push_back(content(place.row / rows_));
+  void add_contents(const RowPosition& position, const Content& content, Scratch& scratch,
+                    Numbers& list) const {
+    list.push_back(content(position.row / rows_));
     scratch.ranges.resize(leading_);
-    for (std::size_t t = 0; t < leading_; ++t) scratch.ranges[t] = hull_->range(place, t);
+    for (std::size_t t = 0; t < leading_; ++t) scratch.ranges[t] = hull_->range(position, t);
     for_each_row(engine_->grid(), 0, scratch.ranges, scratch.counter,
                  [&](std::int64_t row) { list.push_back(content(row / rows_)); });
   }

@@ -4,7 +4,7 @@
 
 namespace coordreq {
 
-void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
+void TupleWalk::begin(const ActionGrouping& grouping, const RowPosition& position, const RowGroups& groups,
                       const Candidates& candidates, std::size_t fastest) {
   REQUIRES(std::ranges::none_of(candidates, [](const auto& of_class) { return of_class.empty(); }));
   grouping_ = &grouping;
@@ -15,7 +15,7 @@ void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, con
   position_.assign(grouping.size(), 0);
   ids_.resize(grouping.engine().slices().size());
   order_.clear();
-  for (std::size_t t = 0; t < sources_; ++t) sum_[t] = grouping.sources()[t].base(place);
+  for (std::size_t t = 0; t < sources_; ++t) sum_[t] = grouping.sources()[t].base(position);
   for (std::size_t c = 0; c < grouping.size(); ++c) {
     if (c != fastest) order_.push_back(c);
     offset_[c].clear();

@@ -17,11 +17,11 @@ class TupleWalk {
 
   /// Goes to the first choice. @pre no class is without a candidate.
   /// @pre unchecked: the arguments outlive the walk
-  void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
+  void begin(const ActionGrouping& grouping, const RowPosition& position, const RowGroups& groups,
              const Candidates& candidates) {
-    begin(grouping, place, groups, candidates, grouping.size() - 1);
+    begin(grouping, position, groups, candidates, grouping.size() - 1);
   }
-  void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
+  void begin(const ActionGrouping& grouping, const RowPosition& position, const RowGroups& groups,
              const Candidates& candidates, std::size_t fastest);
   /// Goes to the next choice. @returns false after the last one
   bool next();

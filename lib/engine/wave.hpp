@@ -24,8 +24,8 @@ class RowOperator {
   /// @param old present levels, 0 in lanes beyond the row
   /// @param worker number of the thread in its team
   /// @returns false if no level would change; `next` is then not looked at
-  virtual bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
-                           int worker) = 0;
+  virtual bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* old,
+                           Level* next, int worker) = 0;
   /// Levels rise, see run_wave(): they are the nearness of a goal.
   [[nodiscard]] virtual bool rises() const { return false; }
   /// next_levels() is a minimum over posts, and nowhere above old[c] - 1: levels of posts that are the same

@@ -108,8 +108,8 @@ class WaveBatch {
 
   struct Change {
     std::int64_t row;
-    std::size_t position;  ///< in the worker's storage
-    std::uint64_t ready;   ///< LevelRows::make_ready()
+    std::size_t offset;   ///< in the worker's storage
+    std::uint64_t ready;  ///< LevelRows::make_ready()
   };
   /// Rows of one unit for one thread.
   struct Task {
@@ -172,23 +172,23 @@ class WaveBatch {
     if (!memo_.is_on() || memo_.rows() > 1) {
       worker.chosen.push_back({unit, begin, end, units_.rows() == 1});
       if (!memo_.is_on()) return;
-      units_.go_to(unit, worker.dirty.place);
-      worker.chosen.back().asked = memo_.ask(worker.dirty.place, turn, worker.memo);
+      units_.go_to(unit, worker.dirty.position);
+      worker.chosen.back().asked = memo_.ask(worker.dirty.position, turn, worker.memo);
       return;
     }
     if (!dirty_.is_unseen(unit)) dirty_.enter(unit, worker.dirty);
-    for (RowPlace place(engine_.grid(), begin); place.row < end; place.advance(engine_.grid())) {
-      if (!is_to_be_looked_at(place, unit, worker.dirty)) continue;
-      const std::uint32_t asked = memo_.ask(place, turn + place.row - begin, worker.memo);
-      worker.chosen.push_back({unit, place.row, place.row + 1, true, asked});
+    for (RowPosition position(engine_.grid(), begin); position.row < end; position.advance(engine_.grid())) {
+      if (!is_to_be_looked_at(position, unit, worker.dirty)) continue;
+      const std::uint32_t asked = memo_.ask(position, turn + position.row - begin, worker.memo);
+      worker.chosen.push_back({unit, position.row, position.row + 1, true, asked});
     }
     dirty_.mark_seen(unit);
   }
 
-  [[nodiscard]] bool is_to_be_looked_at(const RowPlace& place, std::int64_t unit,
+  [[nodiscard]] bool is_to_be_looked_at(const RowPosition& position, std::int64_t unit,
                                         DirtyRows::Scratch& scratch) const {
-    if (!alive_.has(place.row)) return false;
-    return dirty_.is_unseen(unit) || dirty_.meets_change(place, unit, scratch);
+    if (!alive_.has(position.row)) return false;
+    return dirty_.is_unseen(unit) || dirty_.meets_change(position, unit, scratch);
   }
 
   /// Divides what was chosen into tasks, and copies of tiles on which the work is equal.
@@ -244,18 +244,20 @@ class WaveBatch {
     const bool asks_delta = delta_ && !dirty_.is_unseen(task.unit);
     worker.posts.enter(task.begin, asks_delta ? delta_->levels() : levels_);
     if (!task.is_wanted && !dirty_.is_unseen(task.unit)) dirty_.enter(task.unit, worker.dirty);
-    RowPlace place(engine_.grid(), task.begin);
-    for (; place.row < task.end; place.advance(engine_.grid())) {
-      if (task.is_wanted || is_to_be_looked_at(place, task.unit, worker.dirty)) visit_row(place, worker);
+    RowPosition position(engine_.grid(), task.begin);
+    for (; position.row < task.end; position.advance(engine_.grid())) {
+      if (task.is_wanted || is_to_be_looked_at(position, task.unit, worker.dirty))
+        visit_row(position, worker);
     }
   }
 
-  void visit_row(const RowPlace& place, Worker& worker) {
+  void visit_row(const RowPosition& position, Worker& worker) {
     ++worker.counts.visited;
     const auto n = static_cast<std::size_t>(levels_.row_length());
-    std::copy_n(levels_.row(place.row), n, worker.old.begin());
+    std::copy_n(levels_.row(position.row), n, worker.old.begin());
     levels_.clear_gaps(worker.old.data());
-    if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), worker.number)) return;
+    if (!op_.next_levels(position, worker.posts, worker.old.data(), worker.next.data(), worker.number))
+      return;
     const LevelKernels<Level>& kernels = worker.posts.kernels();
     const bool is_changed =
         op_.rises() ? kernels.rise(worker.next.data(), worker.old.data(), worker.result.data(), n)
@@ -264,11 +266,11 @@ class WaveBatch {
     if (!op_.rises())
       worker.lowest =
           std::min(worker.lowest, kernels.lowest_change(worker.result.data(), worker.old.data(), n));
-    const std::size_t position = worker.storage.size();
-    worker.storage.resize(position + static_cast<std::size_t>(levels_.stride()));
-    Level* const lanes = worker.storage.data() + position;
+    const std::size_t offset = worker.storage.size();
+    worker.storage.resize(offset + static_cast<std::size_t>(levels_.stride()));
+    Level* const lanes = worker.storage.data() + offset;
     std::copy_n(worker.result.begin(), n, lanes + levels_.margins().before);
-    worker.changes.push_back({place.row, position, levels_.make_ready(lanes)});
+    worker.changes.push_back({position.row, offset, levels_.make_ready(lanes)});
   }
 
   void mark_seen() {
@@ -295,7 +297,7 @@ class WaveBatch {
   }
 
   void commit(const Worker& from, const Change& change, Worker& by) {
-    const Level* const lanes = from.storage.data() + change.position;
+    const Level* const lanes = from.storage.data() + change.offset;
     const auto note = [&](std::int64_t row) {
       if (delta_) delta_->change(row, levels_.row(row), lanes + levels_.margins().before);
       dirty_.mark(row);

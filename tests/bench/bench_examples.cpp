@@ -39,9 +39,9 @@ class NaiveSweep {
   std::int64_t run(ThreadTeam& team) const {
     std::vector<std::int64_t> found(static_cast<std::size_t>(team.size()), 0);
     team.for_each(engine_.rows(), 64, [&](ThreadTeam::Range range, int worker) {
-      RowPlace place(engine_.grid(), range.begin);
-      for (; place.row < range.end; place.advance(engine_.grid())) {
-        found[static_cast<std::size_t>(worker)] += row(place);
+      RowPosition position(engine_.grid(), range.begin);
+      for (; position.row < range.end; position.advance(engine_.grid())) {
+        found[static_cast<std::size_t>(worker)] += row(position);
       }
     });
     std::int64_t total = 0;
@@ -53,9 +53,9 @@ class NaiveSweep {
   static constexpr std::size_t kWords = 4;
   typedef std::uint64_t Bits __attribute__((vector_size(32), aligned(8)));
 
-  [[nodiscard]] std::int64_t row(const RowPlace& place) const {
+  [[nodiscard]] std::int64_t row(const RowPosition& position) const {
     std::array<std::int64_t, 4> base{};
-    for (std::size_t t = 0; t < base.size(); ++t) base[t] = place.offset(engine_.slices()[t].state_stride);
+    for (std::size_t t = 0; t < base.size(); ++t) base[t] = position.offset(engine_.slices()[t].state_stride);
     Bits some{};
     const InputSpace& inputs = engine_.abstraction().inputs;
     for (std::int64_t u = 0; u < inputs[0].count(); ++u) {
@@ -145,10 +145,10 @@ void sweep(benchmark::State& state, const std::string& name) {
     team.for_each(engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level> posts(engine, levels);
       std::vector<Level> next(posts.lanes());
-      RowPlace place(engine.grid(), range.begin);
-      for (; place.row < range.end; place.advance(engine.grid())) {
-        posts.enter(place.row);
-        if (any_set(invariant.row(place.row))) actions.find_minimum(place, posts, next.data(), worker);
+      RowPosition position(engine.grid(), range.begin);
+      for (; position.row < range.end; position.advance(engine.grid())) {
+        posts.enter(position.row);
+        if (any_set(invariant.row(position.row))) actions.find_minimum(position, posts, next.data(), worker);
       }
     });
     if constexpr (sizeof(Level) == sizeof(std::uint32_t)) {

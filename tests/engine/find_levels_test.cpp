@@ -14,12 +14,12 @@ class KnownLevels final : public RowOperator<Level> {
  public:
   explicit KnownLevels(const std::vector<std::int64_t>& wanted) : wanted_(wanted) {}
 
-  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* /*old*/, Level* next,
+  bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* /*old*/, Level* next,
                    int /*worker*/) override {
     constexpr Level kTop = PostReader<Level>::kTop;
     const auto n = static_cast<std::int64_t>(posts.lanes() - kLevelBlock / sizeof(Level));
     for (std::int64_t c = 0; c < n; ++c) {
-      const std::int64_t level = wanted_[static_cast<std::size_t>(place.row * n + c)] - 1;
+      const std::int64_t level = wanted_[static_cast<std::size_t>(position.row * n + c)] - 1;
       next[c] = level < 0 || level >= kTop ? kTop : static_cast<Level>(level);
     }
     return true;

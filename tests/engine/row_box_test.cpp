@@ -20,18 +20,18 @@ UniformGrid grid_of(const std::vector<std::int64_t>& counts) {
   return UniformGrid(dimensions);
 }
 
-TEST(RowPlace, StepsToTheNextAndTheLastBlockOfRows) {
+TEST(RowPosition, StepsToTheNextAndTheLastBlockOfRows) {
   const UniformGrid grid = grid_of({3, 2, 4, 5});
   for (std::size_t dimensions = 1; dimensions <= grid.across(); ++dimensions) {
     const std::int64_t rows = grid.row_stride(dimensions - 1);
     for (std::int64_t row = 0; row + rows < grid.rows(); row += rows) {
-      RowPlace place(grid, row);
-      place.step(grid, dimensions, false);
-      EXPECT_EQ(place.row, row + rows);
-      EXPECT_EQ(place.index, RowPlace(grid, row + rows).index);
-      place.step(grid, dimensions, true);
-      EXPECT_EQ(place.row, row);
-      EXPECT_EQ(place.index, RowPlace(grid, row).index);
+      RowPosition position(grid, row);
+      position.step(grid, dimensions, false);
+      EXPECT_EQ(position.row, row + rows);
+      EXPECT_EQ(position.index, RowPosition(grid, row + rows).index);
+      position.step(grid, dimensions, true);
+      EXPECT_EQ(position.row, row);
+      EXPECT_EQ(position.index, RowPosition(grid, row).index);
     }
   }
 }
@@ -43,8 +43,8 @@ TEST(RowBox, PlacesOfABoxAreCountedWithAnyStrides) {
   const bool any = any_in_box(
       ranges, [](std::size_t i) { return std::int64_t{i == 0 ? 3 : 4}; },
       [](std::size_t i) { return std::int64_t{i == 0 ? 10 : 2}; }, counter,
-      [&](std::int64_t place) {
-        found.push_back(place);
+      [&](std::int64_t position) {
+        found.push_back(position);
         return false;
       });
   EXPECT_FALSE(any);

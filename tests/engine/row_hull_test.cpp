@@ -26,7 +26,7 @@ RowBox box_on_a_ring(const std::vector<IndexRange>& turns) {
   table.entries = turns;
   const RowEngine engine(abstraction, nullptr, {});
   RowBox box;
-  RowHull(engine).box(RowPlace(abstraction.grid, 0), box);
+  RowHull(engine).box(RowPosition(abstraction.grid, 0), box);
   return box;
 }
 

@@ -94,14 +94,14 @@ TEST(SweepOrder, EachUnitSeesWhatThoseBeforeItHaveFound) {
       }
       RC_ASSERT(rows == order[b].rows);
     }
-    RowPlace place = problem.units.first_place();
+    RowPosition position = problem.units.first_position();
     std::vector<IndexRange> ranges;
     std::vector<std::int64_t> counter;
     for (std::int64_t unit = 0; unit < problem.units.count(); ++unit) {
       RC_ASSERT((problem.alive->of_unit(unit) > 0) == batch_of.contains(unit));
       if (!batch_of.contains(unit)) continue;
-      problem.units.go_to(unit, place);
-      problem.units.enclose(problem.hull, place, ranges);
+      problem.units.go_to(unit, position);
+      problem.units.enclose(problem.hull, position, ranges);
       static_cast<void>(problem.units.any_in(ranges, counter, [&](std::int64_t other) {
         if ((backwards ? other <= unit : other >= unit) || !batch_of.contains(other)) return false;
         RC_ASSERT(batch_of[other] <= batch_of[unit]);

@@ -62,12 +62,12 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
     const Abstraction& f = random.abstraction;
     const UniformGrid& grid = f.grid;
     const RowHull hull(random.engine);
-    for (RowPlace place(grid, 0); place.row < grid.rows(); place.advance(grid)) {
+    for (RowPosition position(grid, 0); position.row < grid.rows(); position.advance(grid)) {
       RowBox box;
-      hull.box(place, box);
+      hull.box(position, box);
       for (std::int64_t c = 0; c < grid.row_length(); ++c) {
         for (std::int64_t u = 0; u < f.inputs.count(); ++u) {
-          const Post post(f, place.row * grid.row_length() + c, u);
+          const Post post(f, position.row * grid.row_length() + c, u);
           post.for_each(grid, [&](std::int64_t cell) {
             for (std::size_t i = 0; i + 1 < grid.size(); ++i)
               RC_ASSERT(holds(box.ranges[i], grid[i].count, grid.index(cell, i)));
@@ -118,9 +118,9 @@ TEST(RowHull, RowsMetAreThoseInTheBoxes) {
     std::vector<std::uint8_t> expected(static_cast<std::size_t>(grid.rows()), 0);
     RowBox box;
     std::vector<std::int64_t> counter;
-    for (RowPlace place(grid, rows.begin); place.row < rows.end; place.advance(grid)) {
-      if (looked_at != nullptr && !any_set(set.row(place.row))) continue;
-      hull.box(place, box);
+    for (RowPosition position(grid, rows.begin); position.row < rows.end; position.advance(grid)) {
+      if (looked_at != nullptr && !any_set(set.row(position.row))) continue;
+      hull.box(position, box);
       for_each_row(grid, 0, box.ranges, counter,
                    [&](std::int64_t row) { expected[static_cast<std::size_t>(row)] = 1; });
     }
@@ -149,10 +149,10 @@ TEST(TupleWalk, GoesThroughAllJointGroupsOfARow) {
     RowGroups groups;
     TupleWalk::Candidates candidates;
     TupleWalk walk;
-    for (RowPlace place(grid, 0); place.row < grid.rows(); place.advance(grid)) {
-      grouping.group(place, groups);
+    for (RowPosition position(grid, 0); position.row < grid.rows(); position.advance(grid)) {
+      grouping.group(position, groups);
       choose_groups(groups, GroupChoice::all, candidates);
-      walk.begin(grouping, place, groups, candidates);
+      walk.begin(grouping, position, groups, candidates);
       std::vector<std::uint32_t> expected(grouping.size(), 0);
       for (bool more = true; more;) {
         std::vector<std::uint32_t> actions;
@@ -165,12 +165,12 @@ TEST(TupleWalk, GoesThroughAllJointGroupsOfARow) {
         for (std::size_t t = 0; t < grid.size(); ++t) {
           for (const RowSegment& segment : random.engine.slices()[t].slices[ids[t]]) {
             for (std::int64_t c = segment.begin; c < segment.end; ++c)
-              RC_ASSERT(says(segment, f.resolved(t, place.row * grid.row_length() + c, u), grid[t], c));
+              RC_ASSERT(says(segment, f.resolved(t, position.row * grid.row_length() + c, u), grid[t], c));
           }
         }
         RC_ASSERT(walk.allowed().empty() == (random.engine.allow() == nullptr));
         if (random.engine.allow() != nullptr)
-          RC_ASSERT(std::ranges::equal(walk.allowed(), random.engine.allow()->row(place.row, u)));
+          RC_ASSERT(std::ranges::equal(walk.allowed(), random.engine.allow()->row(position.row, u)));
         // The last class is the fastest.
         std::size_t c = grouping.size();
         while (c > 0 && ++expected[c - 1] == groups.classes[c - 1]->size()) expected[--c] = 0;

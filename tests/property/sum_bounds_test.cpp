@@ -90,14 +90,14 @@ TEST(SumReader, BoundsAreNowhereAboveTheMinimaOfTheirChoices) {
     SumReader<Level> reader(engine, std::make_shared<SumPatches<Level>>(engine));
     const ActionGrouping grouping(engine, single_classes(abstraction.inputs), team);
     const auto fastest = *rc::gen::inRange<std::size_t>(0, grouping.size());
-    const RowPlace place(engine.grid(), *rc::gen::inRange<std::int64_t>(0, engine.rows()));
-    reader.enter(place.row / engine.unit_rows(), levels);
+    const RowPosition position(engine.grid(), *rc::gen::inRange<std::int64_t>(0, engine.rows()));
+    reader.enter(position.row / engine.unit_rows(), levels);
     RowGroups groups;
-    grouping.group(place, groups);
+    grouping.group(position, groups);
     TupleWalk::Candidates candidates;
     choose_groups(groups, GroupChoice::all, candidates);
     TupleWalk tuple;
-    tuple.begin(grouping, place, groups, candidates, fastest);
+    tuple.begin(grouping, position, groups, candidates, fastest);
     do {
       found += compare(engine, reader, tuple.all_slice_ids());
     } while (tuple.next_of_others());
@@ -106,13 +106,13 @@ TEST(SumReader, BoundsAreNowhereAboveTheMinimaOfTheirChoices) {
 }
 
 /// Numbers of the slices of all choices of actions in a row, one choice after the other.
-std::vector<std::uint32_t> all_choices(const ActionGrouping& grouping, const RowPlace& place) {
+std::vector<std::uint32_t> all_choices(const ActionGrouping& grouping, const RowPosition& position) {
   RowGroups groups;
-  grouping.group(place, groups);
+  grouping.group(position, groups);
   TupleWalk::Candidates candidates;
   choose_groups(groups, GroupChoice::all, candidates);
   TupleWalk tuple;
-  tuple.begin(grouping, place, groups, candidates);
+  tuple.begin(grouping, position, groups, candidates);
   std::vector<std::uint32_t> all;
   do {
     const auto ids = tuple.slice_ids();
@@ -122,9 +122,9 @@ std::vector<std::uint32_t> all_choices(const ActionGrouping& grouping, const Row
 }
 
 /// The sum of the minima of all choices of a row, each weighted by its lane and choice.
-std::uint64_t digest(const RowEngine& engine, const ActionGrouping& grouping, const RowPlace& place,
+std::uint64_t digest(const RowEngine& engine, const ActionGrouping& grouping, const RowPosition& position,
                      PostReader<Level>& posts) {
-  const std::vector<std::uint32_t> ids = all_choices(grouping, place);
+  const std::vector<std::uint32_t> ids = all_choices(grouping, position);
   std::uint64_t sum = 0;
   for (std::size_t k = 0; k < ids.size(); k += engine.tables()) {
     const Level* const row = posts.minimum(std::span(ids).subspan(k, engine.tables()));
@@ -149,16 +149,17 @@ TEST(SumPatches, ThreadsThatShareThemReadWhatOneReads) {
       std::vector<std::uint64_t> read(static_cast<std::size_t>(engine.rows()));
       first.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
         PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
-        for (RowPlace place(engine.grid(), range.begin); place.row < range.end;
-             place.advance(engine.grid())) {
-          posts.enter(place.row);
-          read[static_cast<std::size_t>(place.row)] = digest(engine, grouping, place, posts);
+        for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+             position.advance(engine.grid())) {
+          posts.enter(position.row);
+          read[static_cast<std::size_t>(position.row)] = digest(engine, grouping, position, posts);
         }
       });
-      for (RowPlace place(engine.grid(), 0); place.row < engine.rows(); place.advance(engine.grid())) {
+      for (RowPosition position(engine.grid(), 0); position.row < engine.rows();
+           position.advance(engine.grid())) {
         PostReader<Level> posts(engine, levels);
-        posts.enter(place.row);
-        RC_ASSERT(read[static_cast<std::size_t>(place.row)] == digest(engine, grouping, place, posts));
+        posts.enter(position.row);
+        RC_ASSERT(read[static_cast<std::size_t>(position.row)] == digest(engine, grouping, position, posts));
       }
       levels = random_levels(engine);
     }

@@ -89,17 +89,19 @@ LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, 
     first.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level>& posts = readers[at(worker)];
       std::vector<Level> least(posts.lanes(), 0), cells(posts.lanes(), 0);
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        posts.enter(place.row);
-        const ConstRow terminal = problem.terminal == nullptr ? ConstRow() : problem.terminal->row(place.row);
-        if (!any_set(invariant.row(place.row)) && !any_set(terminal)) continue;
-        actions.find_minimum(place, posts, least.data(), worker);
+      for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+           position.advance(engine.grid())) {
+        posts.enter(position.row);
+        const ConstRow terminal =
+            problem.terminal == nullptr ? ConstRow() : problem.terminal->row(position.row);
+        if (!any_set(invariant.row(position.row)) && !any_set(terminal)) continue;
+        actions.find_minimum(position, posts, least.data(), worker);
         std::ranges::fill(cells, Level{0});
         for_each_bit(terminal, [&](std::int64_t x) { cells[at(x)] = kTop; });
-        for_each_bit(invariant.row(place.row), [&](std::int64_t x) {
+        for_each_bit(invariant.row(position.row), [&](std::int64_t x) {
           cells[at(x)] = least[at(x)] == kTop ? most : static_cast<Level>(least[at(x)] + 1);
         });
-        delays.put(place.row, cells.data());
+        delays.put(position.row, cells.data());
       }
     });
     return LevelMap(std::move(delays));

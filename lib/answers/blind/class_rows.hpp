@@ -16,11 +16,11 @@ class ClassRows {
   explicit ClassRows(const SilentSources& sources) : sources_(sources) {}
 
   /// @pre K has cells in the row. @pre unchecked: this process owns it
-  void enter(const RowPlace& place) {
-    REQUIRES(any_set(sources_.invariant.row(place.row)));
-    row_ = place.row;
+  void enter(const RowPosition& position) {
+    REQUIRES(any_set(sources_.invariant.row(position.row)));
+    row_ = position.row;
     is_full_ = sources_.projections.is_full(row_);
-    if (!is_full_) sources_.projections.grouping().group(place, groups_);
+    if (!is_full_) sources_.projections.grouping().group(position, groups_);
   }
   /// All cells of K in the row have all actions.
   [[nodiscard]] bool is_full() const { return is_full_; }

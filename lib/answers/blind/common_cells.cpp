@@ -47,32 +47,33 @@ class CellRemoval {
     std::vector<Word> have = {};   ///< of these, the cells with an action
   };
 
-  /// Calls `visit(place, worker)` for rows that have cells in the batch.
+  /// Calls `visit(position, worker)` for rows that have cells in the batch.
   template <class Visit>
   void for_each_row_of_batch(std::size_t c, const Visit& visit) {
     const RowEngine& engine = sources_.projections.grouping().engine();
     const Fibres& fibres = *sources_.fibres[c];
     for_each_local_row(team_, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int number) {
       Worker& worker = workers_[at(number)];
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
+      for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+           position.advance(engine.grid())) {
         worker.cells.assign(engine.row_words(), 0);
-        const std::int64_t base = fibres.base(place);
-        for_each_bit(left_.row(place.row), [&](std::int64_t x) {
+        const std::int64_t base = fibres.base(position);
+        for_each_bit(left_.row(position.row), [&](std::int64_t x) {
           if (positions_[at(base + fibres.of_lane(x))] != kWhole)
             worker.cells[at(x / CellSet::kWordBits)] |= Word{1} << (x % CellSet::kWordBits);
         });
         if (!any_set(worker.cells)) continue;
-        worker.rows.enter(place);
-        visit(place, worker);
+        worker.rows.enter(position);
+        visit(position, worker);
       }
     });
   }
 
   /// Calls `visit(position of the fibre in the batch, action, lane)` for the actions of each cell of the row.
   template <class Visit>
-  void for_each_action(std::size_t c, const RowPlace& place, Worker& worker, const Visit& visit) {
+  void for_each_action(std::size_t c, const RowPosition& position, Worker& worker, const Visit& visit) {
     const Fibres& fibres = *sources_.fibres[c];
-    const std::int64_t base = fibres.base(place);
+    const std::int64_t base = fibres.base(position);
     for (std::int64_t a = 0; a < tables_[c].actions; ++a) {
       const ConstRow all = worker.rows.cells(c, static_cast<std::uint32_t>(a));
       worker.have.resize(all.size());
@@ -86,8 +87,8 @@ class CellRemoval {
   std::vector<std::int64_t> count_actions(std::size_t c, std::int64_t fibres) {
     const std::int64_t actions = tables_[c].actions;
     std::vector<std::int64_t> counts(at(fibres * actions), 0);
-    for_each_row_of_batch(c, [&](const RowPlace& place, Worker& worker) {
-      for_each_action(c, place, worker, [&](std::int32_t fibre, std::int64_t a, std::int64_t /*lane*/) {
+    for_each_row_of_batch(c, [&](const RowPosition& position, Worker& worker) {
+      for_each_action(c, position, worker, [&](std::int32_t fibre, std::int64_t a, std::int64_t /*lane*/) {
         std::atomic_ref<std::int64_t>(counts[at(fibre * actions + a)])
             .fetch_add(1, std::memory_order_relaxed);
       });
@@ -107,13 +108,13 @@ class CellRemoval {
   }
 
   void remove_others(std::size_t c, const std::vector<std::int64_t>& chosen) {
-    for_each_row_of_batch(c, [&](const RowPlace& place, Worker& worker) {
+    for_each_row_of_batch(c, [&](const RowPosition& position, Worker& worker) {
       std::vector<Word> lost = worker.cells;
-      for_each_action(c, place, worker, [&](std::int32_t fibre, std::int64_t a, std::int64_t lane) {
+      for_each_action(c, position, worker, [&](std::int32_t fibre, std::int64_t a, std::int64_t lane) {
         if (a == chosen[at(fibre)])
           lost[at(lane / CellSet::kWordBits)] &= ~(Word{1} << (lane % CellSet::kWordBits));
       });
-      const MutableRow left = left_.row(place.row);
+      const MutableRow left = left_.row(position.row);
       for (std::size_t w = 0; w < lost.size(); ++w) left[w] &= ~lost[w];
     });
   }

@@ -29,7 +29,7 @@ class Fibres {
 
   [[nodiscard]] std::int64_t count() const { return count_; }
   /// A cell is in fibre base(its row) + of_lane(its lane). Lanes that are no cells have no meaning.
-  [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(across_); }
+  [[nodiscard]] std::int64_t base(const RowPosition& position) const { return position.offset(across_); }
   [[nodiscard]] std::int64_t of_lane(std::int64_t lane) const {
     return along_[static_cast<std::size_t>(lane)];
   }

@@ -44,13 +44,13 @@ class TableBuilder {
   }
 
   template <class Level>
-  void add(const RowPlace& place, const Level* levels, std::int64_t deepest) {
-    if (!find_depths(levels, sources_.invariant.row(place.row), deepest, depths_, inside_)) return;
-    rows_.enter(place);
+  void add(const RowPosition& position, const Level* levels, std::int64_t deepest) {
+    if (!find_depths(levels, sources_.invariant.row(position.row), deepest, depths_, inside_)) return;
+    rows_.enter(position);
     for (std::size_t c = 0; c < tables_.size(); ++c) {
       if (!sources_.fibres[c]) continue;
       const Fibres& fibres = *sources_.fibres[c];
-      const std::int64_t base = fibres.base(place);
+      const std::int64_t base = fibres.base(position);
       SilentTable& table = tables_[c];
       for_each_bit(inside_, [&](std::int64_t x) {
         raise(table.seen_depth[at(base + fibres.of_lane(x))], depths_[at(x)]);
@@ -114,9 +114,10 @@ std::vector<SilentTable> find_silent_tables(const SilentSources& sources, const 
     std::deque<TableBuilder> builders;
     for (int w = 0; w < team.size(); ++w) builders.emplace_back(sources, tables);
     for_each_local_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        if (any_set(sources.invariant.row(place.row)))
-          builders[at(worker)].add(place, rows.row(place.row), most);
+      for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+           position.advance(engine.grid())) {
+        if (any_set(sources.invariant.row(position.row)))
+          builders[at(worker)].add(position, rows.row(position.row), most);
       }
     });
   });

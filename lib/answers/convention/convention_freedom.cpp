@@ -173,14 +173,15 @@ ConventionFreedom find_convention(const Controller& controller, const ActionGrou
       ConventionRows<Level>& finder = finders[static_cast<std::size_t>(worker)];
       ConventionRow row;
       Measure measure(engine.row_length());
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        const auto k = static_cast<std::size_t>(place.row - local.begin);
-        if (like.first[k] != place.row) continue;
-        const ConstRow invariant = controller.invariant->row(place.row);
-        finder.find(place, row);
+      for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+           position.advance(engine.grid())) {
+        const auto k = static_cast<std::size_t>(position.row - local.begin);
+        if (like.first[k] != position.row) continue;
+        const ConstRow invariant = controller.invariant->row(position.row);
+        finder.find(position, row);
         for (std::size_t i = 0; i < agents.size(); ++i) {
           sums[i][k] = measure.measure(row, i, invariant, like.count[k],
-                                       result.agents[i].freedom.data() + place.row * engine.row_length(),
+                                       result.agents[i].freedom.data() + position.row * engine.row_length(),
                                        counts[static_cast<std::size_t>(worker)][i]);
         }
       }
@@ -195,12 +196,12 @@ namespace {
 
 /// The sets of one agent in the cells of one row.
 template <class Level>
-void write_row(ConventionRows<Level>& finder, const Controller& controller, const RowPlace& place,
+void write_row(ConventionRows<Level>& finder, const Controller& controller, const RowPosition& position,
                std::size_t agent, std::int64_t bytes, std::uint8_t* cells) {
-  const ConstRow invariant = controller.invariant->row(place.row);
+  const ConstRow invariant = controller.invariant->row(position.row);
   if (!any_set(invariant)) return;
   ConventionRow row;
-  finder.find(place, row);
+  finder.find(position, row);
   const ActionGroups& groups = *row.groups.classes[agent];
   for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
     const ConstRow kept(row.kept[agent].data() + groups.group_of[a] * invariant.size(), invariant.size());
@@ -226,8 +227,8 @@ void fill_convention_bits(const Controller& controller, const ActionGrouping& ag
       const std::uint64_t offset = begin % row_bytes;
       const std::uint64_t take = std::min(count, row_bytes - offset);
       std::fill(cells.begin(), cells.end(), 0);
-      const RowPlace place(controller.engine->grid(), static_cast<std::int64_t>(begin / row_bytes));
-      write_row(finder, controller, place, agent, bytes, cells.data());
+      const RowPosition position(controller.engine->grid(), static_cast<std::int64_t>(begin / row_bytes));
+      write_row(finder, controller, position, agent, bytes, cells.data());
       std::copy_n(cells.begin() + static_cast<std::ptrdiff_t>(offset), take, target);
       begin += take;
       count -= take;

@@ -40,30 +40,30 @@ class ConventionRows {
   }
 
   /// @pre some cell of the row is in K
-  void find(const RowPlace& place, ConventionRow& row) {
-    REQUIRES(any_set(controller_.invariant->row(place.row)));
-    posts_.enter(place.row);
-    agents_.group(place, row.groups);
-    find_controller(place, row);
-    find_seeds(controller_.invariant->row(place.row), row);
+  void find(const RowPosition& position, ConventionRow& row) {
+    REQUIRES(any_set(controller_.invariant->row(position.row)));
+    posts_.enter(position.row);
+    agents_.group(position, row.groups);
+    find_controller(position, row);
+    find_seeds(controller_.invariant->row(position.row), row);
     for (std::size_t i = 0; i < agents_.size(); ++i)
-      add_actions(i, controller_.invariant->row(place.row), row);
+      add_actions(i, controller_.invariant->row(position.row), row);
   }
 
  private:
   /// C(x) of all choices of groups, the last agent fastest, and its projections.
-  void find_controller(const RowPlace& place, ConventionRow& row) {
+  void find_controller(const RowPosition& position, ConventionRow& row) {
     row.projection.resize(agents_.size());
     for (std::size_t i = 0; i < agents_.size(); ++i)
       row.projection[i].assign(row.groups.classes[i]->size() * words_, 0);
     choose_groups(row.groups, GroupChoice::all, candidates_);
-    tuple_.begin(agents_, place, row.groups, candidates_);
+    tuple_.begin(agents_, position, row.groups, candidates_);
     admissible_.clear();
     choices_.clear();
     numbers_.clear();
     std::vector<Word> members(words_);
     do {
-      controller_row(controller_, levels_, place.row, tuple_, posts_, controller_.engine->all_lanes(),
+      controller_row(controller_, levels_, position.row, tuple_, posts_, controller_.engine->all_lanes(),
                      members);
       admissible_.insert(admissible_.end(), members.begin(), members.end());
       std::int64_t number = 0;

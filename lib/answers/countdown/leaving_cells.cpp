@@ -22,15 +22,14 @@ namespace coordreq {
 namespace {
 
 /// ids = the numbers of the slices of a row under a joint input.
-void find_slices(const RowEngine& engine, const RowPlace& place, std::int64_t u,
+void find_slices(const RowEngine& engine, const RowPosition& position, std::int64_t u,
                  std::vector<std::uint32_t>& ids) {
   const InputSpace& inputs = engine.abstraction().inputs;
   ids.clear();
   for (const RowSlices& slices : engine.slices()) {
-    std::int64_t position = slices.base(place);
-    for (const std::int32_t j : slices.inputs)
-      position += inputs.index(u, at(j)) * slices.input_stride[at(j)];
-    ids.push_back(slices.number(position));
+    std::int64_t entry = slices.base(position);
+    for (const std::int32_t j : slices.inputs) entry += inputs.index(u, at(j)) * slices.input_stride[at(j)];
+    ids.push_back(slices.number(entry));
   }
 }
 
@@ -58,32 +57,32 @@ class LeavingRows {
 
   /// Takes the cells out of the row from which some joint input of C(x) leaves.
   /// @param outward takes the cells, of those in question, with the outward joint input in C(x)
-  void take_out(const RowPlace& place, MutableRow row, MutableRow outward) {
+  void take_out(const RowPosition& position, MutableRow row, MutableRow outward) {
     std::copy(row.begin(), row.end(), pending_.begin());
-    if (context_.terminal) remove(context_.terminal->row(place.row), pending_);
-    const bool full = is_full(place.row);
+    if (context_.terminal) remove(context_.terminal->row(position.row), pending_);
+    const bool full = is_full(position.row);
     if (full) {
       std::copy(pending_.begin(), pending_.end(), outward.begin());
     } else {
-      posts_.enter(place.row);
-      keep_members(place, sides_.outward(), pending_, outward);
+      posts_.enter(position.row);
+      keep_members(position, sides_.outward(), pending_, outward);
     }
-    sides_.find_near(place, pending_, near_);
+    sides_.find_near(position, pending_, near_);
     if (!any_set(near_)) return;
     ++rows_;
-    if (!full) keep_admissible(place, outward);
+    if (!full) keep_admissible(position, outward);
     remove(near_, row);
     for (const Word word : near_) removed_ += word == 0 ? 0 : std::popcount(word);
   }
 
   /// Whether the outward joint input is in C(x) and leads ahead, for all of these unbounded cells of the row,
   /// which are not ahead by all joint inputs.
-  [[nodiscard]] bool lead_ahead(const RowPlace& place, ConstRow cells) {
+  [[nodiscard]] bool lead_ahead(const RowPosition& position, ConstRow cells) {
     ++rows_;
-    if (!sides_.outward_leads_ahead(place, cells)) return false;
-    if (is_full(place.row)) return true;
-    posts_.enter(place.row);
-    keep_members(place, sides_.outward(), cells, members_);
+    if (!sides_.outward_leads_ahead(position, cells)) return false;
+    if (is_full(position.row)) return true;
+    posts_.enter(position.row);
+    keep_members(position, sides_.outward(), cells, members_);
     return std::ranges::equal(members_, cells);
   }
 
@@ -101,18 +100,18 @@ class LeavingRows {
   }
 
   /// Keeps of near_ the cells from which a joint input of C(x) leaves.
-  void keep_admissible(const RowPlace& place, ConstRow outward) {
+  void keep_admissible(const RowPosition& position, ConstRow outward) {
     std::copy(near_.begin(), near_.end(), pending_.begin());
-    sides_.find_leaving_outward(place, pending_, leaving_);
+    sides_.find_leaving_outward(position, pending_, leaving_);
     for (std::size_t w = 0; w < pending_.size(); ++w) pending_[w] &= ~(leaving_[w] & outward[w]);
     members_of_.clear();
     for (std::size_t side = 0; side < sides_.size() && any_set(pending_); ++side) {
       for (std::size_t choice = sides_.input_choices(side); choice-- > 0 && any_set(pending_);) {
-        sides_.find_leaving(side, choice, place, pending_, leaving_);
+        sides_.find_leaving(side, choice, position, pending_, leaving_);
         if (!any_set(leaving_)) continue;
         sides_.for_each_input(side, choice, [&](std::int64_t u) {
           if (u == sides_.outward()) return true;  // from none of these
-          keep_members(place, u, leaving_, members_);
+          keep_members(position, u, leaving_, members_);
           remove(members_, pending_);
           remove(members_, leaving_);
           return any_set(leaving_);
@@ -123,22 +122,22 @@ class LeavingRows {
   }
 
   /// result = these cells of the row, where u is in C(x).
-  void keep_members(const RowPlace& place, std::int64_t u, ConstRow cells, MutableRow result) {
+  void keep_members(const RowPosition& position, std::int64_t u, ConstRow cells, MutableRow result) {
     std::copy(cells.begin(), cells.end(), result.begin());
     if (const PairTable* const allow = context_.pairs.admissible(); allow != nullptr) {
-      const ConstRow allowed = allow->row(place.row, u);
+      const ConstRow allowed = allow->row(position.row, u);
       for (std::size_t w = 0; w < result.size(); ++w) result[w] &= allowed[w];
     }
     if (controller_.synthesis == Synthesis::maximal && any_set(result)) {
-      const std::vector<Word>& kept = staying(place, u);
+      const std::vector<Word>& kept = staying(position, u);
       for (std::size_t w = 0; w < result.size(); ++w) result[w] &= kept[w];
     }
   }
 
   /// The cells of the row whose post under u lies in K; of other joint inputs than the outward one found once
   /// for all with the same posts.
-  const std::vector<Word>& staying(const RowPlace& place, std::int64_t u) {
-    find_slices(engine_, place, u, ids_);
+  const std::vector<Word>& staying(const RowPosition& position, std::int64_t u) {
+    find_slices(engine_, position, u, ids_);
     if (u == sides_.outward()) return read(staying_);
     const auto [found, is_new] = members_of_.try_emplace(ids_);
     if (!is_new) return found->second;
@@ -213,13 +212,13 @@ bool all_lead_ahead(const Answers& answers, const Projections& projections, cons
     set_bits(every, 0, engine.row_length());
     for_each_local_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
       std::vector<Word> ahead(every.size()), open(every.size());
-      for (RowPlace place(engine.grid(), range.begin); all && place.row < range.end;
-           place.advance(engine.grid())) {
-        sides.find_ahead(place, every, ahead);
+      for (RowPosition position(engine.grid(), range.begin); all && position.row < range.end;
+           position.advance(engine.grid())) {
+        sides.find_ahead(position, every, ahead);
         if (ahead == every) continue;
-        find_unbounded(layers.layers_of, place.row, open);
+        find_unbounded(layers.layers_of, position.row, open);
         remove(ahead, open);
-        if (any_set(open) && !workers[at(worker)].lead_ahead(place, open)) all = false;
+        if (any_set(open) && !workers[at(worker)].lead_ahead(position, open)) all = false;
       }
     });
     for (const auto& worker : workers) {
@@ -241,9 +240,10 @@ void take_out_leaving(const Answers& answers, const Projections& projections, co
   const RowEngine& engine = *answers.context.engine;
   with_workers(answers, projections, sides, team, [&](auto& workers) {
     for_each_local_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        if (any_set(cells.row(place.row)))
-          workers[at(worker)].take_out(place, cells.row(place.row), outward.row(place.row));
+      for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+           position.advance(engine.grid())) {
+        if (any_set(cells.row(position.row)))
+          workers[at(worker)].take_out(position, cells.row(position.row), outward.row(position.row));
       }
     });
     for (const auto& worker : workers) {

@@ -33,11 +33,12 @@ class OutwardCells {
   }
 
   /// Row kNone if the cells of the row do not all go on alike.
-  [[nodiscard]] Target of(const RowPlace& place) const {
+  [[nodiscard]] Target of(const RowPosition& position) const {
     Target target{.row = 0};
     for (std::size_t i = 0; i < engine_.tables(); ++i) {
       const RowSlices& slices = engine_.slices()[i];
-      const std::vector<RowSegment>& segments = slices.slices[slices.number(slices.base(place) + inputs_[i])];
+      const std::vector<RowSegment>& segments =
+          slices.slices[slices.number(slices.base(position) + inputs_[i])];
       const bool is_across = i < engine_.across();
       if (segments.size() != 1 ||
           segments.front().kind != (is_across ? RowSegment::Kind::fixed : RowSegment::Kind::shifted))
@@ -84,14 +85,14 @@ std::int64_t take_out_runs(const AnalysisContext& context, const SafeSides& side
     const CellSet before = left;
     std::vector<std::int64_t> removed(at(std::int64_t{team.size()}), 0);
     for_each_local_row(team, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
-      RowPlace place(engine.grid(), range.begin);
+      RowPosition position(engine.grid(), range.begin);
       for (std::int64_t r = range.begin; r < range.end; ++r) {
         OutwardCells::Target& target = targets[at(r - local.begin)];
         const MutableRow row = left.row(r);
         const ConstRow may = outward.row(r);
         if (is_first) {
-          if (any_set(row)) target = cells.of(place);
-          place.advance(engine.grid());
+          if (any_set(row)) target = cells.of(position);
+          position.advance(engine.grid());
         }
         if (target.row == OutwardCells::kNone) continue;
         const ConstRow all_row = all.row(target.row), left_row = before.row(target.row);

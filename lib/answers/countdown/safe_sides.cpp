@@ -65,20 +65,20 @@ bool SafeSides::knows_ahead() const {
   return std::ranges::none_of(sides_, [](const Side& side) { return side.ahead.empty(); });
 }
 
-void SafeSides::find_ahead(const RowPlace& place, ConstRow cells, MutableRow result) const {
+void SafeSides::find_ahead(const RowPosition& position, ConstRow cells, MutableRow result) const {
   std::fill(result.begin(), result.end(), 0);
-  for (const Side& side : sides_) add_row(side, side.ahead, place, result);
+  for (const Side& side : sides_) add_row(side, side.ahead, position, result);
   for (const Side& side : sides_) {
-    const Word* const back = side.back.data() + choice(side, place) * side.words;
+    const Word* const back = side.back.data() + choice(side, position) * side.words;
     for (std::size_t w = 0; w < result.size(); ++w) result[w] &= ~back[side.is_along ? w : 0];
   }
   for (std::size_t w = 0; w < result.size(); ++w) result[w] &= cells[w];
 }
 
-bool SafeSides::outward_leads_ahead(const RowPlace& place, ConstRow cells) const {
+bool SafeSides::outward_leads_ahead(const RowPosition& position, ConstRow cells) const {
   bool all = true;
   for_each_bit(cells, [&](std::int64_t lane) {
-    const std::int64_t x = place.row * grid_.row_length() + lane;
+    const std::int64_t x = position.row * grid_.row_length() + lane;
     std::int64_t further = 0;
     for (const Side& side : sides_) {
       const IndexRange raw = abstraction_.raw(side.dimension, x, outward_);
@@ -90,47 +90,47 @@ bool SafeSides::outward_leads_ahead(const RowPlace& place, ConstRow cells) const
   return all;
 }
 
-void SafeSides::find_near(const RowPlace& place, ConstRow cells, MutableRow result) const {
+void SafeSides::find_near(const RowPosition& position, ConstRow cells, MutableRow result) const {
   std::fill(result.begin(), result.end(), 0);
   for (const Side& side : sides_) {
     if (!side.near.empty()) {
-      add_row(side, side.near, place, result);
+      add_row(side, side.near, position, result);
       continue;
     }
     for_each_bit(cells, [&](std::int64_t lane) {
       const Word bit = Word{1} << (lane % CellSet::kWordBits);
       if ((result[at(lane / CellSet::kWordBits)] & bit) != 0) return;
-      if (is_near(side, place.row * grid_.row_length() + lane)) set_lane(lane, result.data());
+      if (is_near(side, position.row * grid_.row_length() + lane)) set_lane(lane, result.data());
     });
   }
   for (std::size_t w = 0; w < result.size(); ++w) result[w] &= cells[w];
 }
 
-void SafeSides::find_leaving_outward(const RowPlace& place, ConstRow cells, MutableRow result) const {
+void SafeSides::find_leaving_outward(const RowPosition& position, ConstRow cells, MutableRow result) const {
   std::fill(result.begin(), result.end(), 0);
   for (const Side& side : sides_) {
     if (!side.outward.empty()) {
-      add_row(side, side.outward, place, result);
+      add_row(side, side.outward, position, result);
       continue;
     }
     for_each_bit(cells, [&](std::int64_t lane) {
-      if (leaves(side, place.row * grid_.row_length() + lane, outward_)) set_lane(lane, result.data());
+      if (leaves(side, position.row * grid_.row_length() + lane, outward_)) set_lane(lane, result.data());
     });
   }
   for (std::size_t w = 0; w < result.size(); ++w) result[w] &= cells[w];
 }
 
-void SafeSides::add_row(const Side& side, const std::vector<Word>& kept, const RowPlace& place,
+void SafeSides::add_row(const Side& side, const std::vector<Word>& kept, const RowPosition& position,
                         MutableRow result) const {
-  const Word* const row = kept.data() + choice(side, place) * side.words;
+  const Word* const row = kept.data() + choice(side, position) * side.words;
   for (std::size_t w = 0; w < result.size(); ++w) result[w] |= row[side.is_along ? w : 0];
 }
 
-void SafeSides::find_leaving(std::size_t side, std::size_t input_choice, const RowPlace& place,
+void SafeSides::find_leaving(std::size_t side, std::size_t input_choice, const RowPosition& position,
                              ConstRow cells, MutableRow result) const {
   std::fill(result.begin(), result.end(), 0);
   const Side& chosen = sides_[side];
-  const std::int64_t u = chosen.input_choices[input_choice], first = place.row * grid_.row_length();
+  const std::int64_t u = chosen.input_choices[input_choice], first = position.row * grid_.row_length();
   if (!chosen.is_along) {
     if (passes(chosen.dimension, abstraction_.raw(chosen.dimension, first, u)))
       std::copy(cells.begin(), cells.end(), result.begin());
@@ -288,9 +288,9 @@ void SafeSides::fill_row(const Side& side, std::int64_t first, Word* row, const 
   });
 }
 
-std::size_t SafeSides::choice(const Side& side, const RowPlace& place) const {
+std::size_t SafeSides::choice(const Side& side, const RowPosition& position) const {
   const RowSlices& slices = engine_.slices()[side.dimension];
-  return at(slices.base(place) / slices.input_combinations);
+  return at(slices.base(position) / slices.input_combinations);
 }
 
 bool SafeSides::is_near(const Side& side, std::int64_t x) const {

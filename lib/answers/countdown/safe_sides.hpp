@@ -30,9 +30,9 @@ class SafeSides {
   /// result = of these cells of a row those that are *ahead*: every joint input, in C(x) or not, leads out
   /// through a side or to a cell that is further outward, by the sum of the indices in the dimensions of the
   /// sides. Some such cells may be missing.
-  void find_ahead(const RowPlace& place, ConstRow cells, MutableRow result) const;
+  void find_ahead(const RowPosition& position, ConstRow cells, MutableRow result) const;
   /// Whether the outward joint input leads out or to a cell that is further outward, from all of these cells.
-  [[nodiscard]] bool outward_leads_ahead(const RowPlace& place, ConstRow cells) const;
+  [[nodiscard]] bool outward_leads_ahead(const RowPosition& position, ConstRow cells) const;
 
   /// Gets ready for the questions below.
   void make_ready(ThreadTeam& team);
@@ -55,11 +55,11 @@ class SafeSides {
 
   /// result = the cells of a row, among the given ones, from which some joint input, in C(x) or not, leads
   /// out through a side.
-  void find_near(const RowPlace& place, ConstRow cells, MutableRow result) const;
+  void find_near(const RowPosition& position, ConstRow cells, MutableRow result) const;
   /// The same of the outward joint input.
-  void find_leaving_outward(const RowPlace& place, ConstRow cells, MutableRow result) const;
+  void find_leaving_outward(const RowPosition& position, ConstRow cells, MutableRow result) const;
   /// The same of one side, and of one choice of its inputs.
-  void find_leaving(std::size_t side, std::size_t input_choice, const RowPlace& place, ConstRow cells,
+  void find_leaving(std::size_t side, std::size_t input_choice, const RowPosition& position, ConstRow cells,
                     MutableRow result) const;
 
  private:
@@ -95,10 +95,10 @@ class SafeSides {
   template <class Test>
   void fill_row(const Side& side, std::int64_t first, Word* row, const Test& test) const;
   /// Adds what a row has in `near` or `outward`.
-  void add_row(const Side& side, const std::vector<Word>& kept, const RowPlace& place,
+  void add_row(const Side& side, const std::vector<Word>& kept, const RowPosition& position,
                MutableRow result) const;
   /// The number of the choice of states across rows on which the side depends.
-  [[nodiscard]] std::size_t choice(const Side& side, const RowPlace& place) const;
+  [[nodiscard]] std::size_t choice(const Side& side, const RowPosition& position) const;
   [[nodiscard]] bool is_near(const Side& side, std::int64_t x) const;
   [[nodiscard]] bool leaves(const Side& side, std::int64_t x, std::int64_t u) const {
     return passes(side.dimension, abstraction_.raw(side.dimension, x, u));

@@ -25,13 +25,14 @@ CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, 
     first.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
       std::vector<Level> least(posts.lanes(), 0);
-      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-        posts.enter(place.row);
-        const ConstRow outside_goal = sets.outside_goal->row(place.row);
+      for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+           position.advance(engine.grid())) {
+        posts.enter(position.row);
+        const ConstRow outside_goal = sets.outside_goal->row(position.row);
         if (!any_set(outside_goal)) continue;
-        actions.find_minimum(place, posts, least.data(), worker);
-        const MutableRow nearing = result.row(place.row);
-        posts.kernels().above_bits(least.data(), bounds.row(place.row), nearing.data(),
+        actions.find_minimum(position, posts, least.data(), worker);
+        const MutableRow nearing = result.row(position.row);
+        posts.kernels().above_bits(least.data(), bounds.row(position.row), nearing.data(),
                                    static_cast<std::size_t>(engine.row_length()));
         for (std::size_t w = 0; w < nearing.size(); ++w) nearing[w] &= outside_goal[w];
       }
@@ -51,12 +52,12 @@ class ApproachActions final : public RowOperator<Level> {
         nearing_(nearing),
         lanes_(static_cast<std::size_t>(workers)) {}
 
-  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+  bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override {
     constexpr Level kTop = PostReader<Level>::kTop;
-    const ConstRow nearing = nearing_.row(place.row);
+    const ConstRow nearing = nearing_.row(position.row);
     if (!any_set(nearing)) return false;
-    actions_.find_minimum(place, posts, next, worker);
+    actions_.find_minimum(position, posts, next, worker);
     std::vector<Level>& lanes = lanes_[static_cast<std::size_t>(worker)];
     lanes.resize(posts.lanes());
     const auto n = static_cast<std::size_t>(nearing_.row_length());

@@ -14,7 +14,7 @@
 
 namespace coordreq {
 
-/// Calls `body(place, posts, best, worker)` for every own row with such cells: what its cells can reach at
+/// Calls `body(position, posts, best, worker)` for every own row with such cells: what its cells can reach at
 /// best.
 template <class Level, class Body>
 void for_each_best(const LastingProblem& problem, const ActionGrouping& grouping,
@@ -26,12 +26,13 @@ void for_each_best(const LastingProblem& problem, const ActionGrouping& grouping
   first.for_each_local_row(team, [&](ThreadTeam::Range range, int worker) {
     PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
     std::vector<Level> old(posts.lanes(), 0), next(posts.lanes(), 0);
-    for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
-      posts.enter(place.row);
-      if (!any_set(cells.row(place.row))) continue;
-      std::copy_n(levels.row(place.row), engine.row_length(), old.begin());
-      best->next_levels(place, posts, old.data(), next.data(), worker);
-      body(place, posts, next.data(), worker);
+    for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
+         position.advance(engine.grid())) {
+      posts.enter(position.row);
+      if (!any_set(cells.row(position.row))) continue;
+      std::copy_n(levels.row(position.row), engine.row_length(), old.begin());
+      best->next_levels(position, posts, old.data(), next.data(), worker);
+      body(position, posts, next.data(), worker);
     }
   });
 }

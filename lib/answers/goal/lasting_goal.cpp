@@ -44,12 +44,12 @@ class StayActions final : public RowOperator<Level> {
         rises_(rises),
         best_(make_joint_actions<Level>(grouping, problem.synthesis, true, workers)) {}
 
-  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+  bool next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override {
     constexpr Level kTop = PostReader<Level>::kTop;
-    const ConstRow goal = goal_.row(place.row);
+    const ConstRow goal = goal_.row(position.row);
     if (!rises_ && !any_set(goal)) return false;
-    best_->next_levels(place, posts, old, next, worker);
+    best_->next_levels(position, posts, old, next, worker);
     if (rises_) {
       for_each_bit(goal, [next](std::int64_t x) {
         if (next[x] < kTop) ++next[x];
@@ -170,9 +170,9 @@ CellSet keeping_cells(const LastingProblem& problem, const ActionGrouping& group
   CellSet result(cells.rows(), cells.row_length());
   nearness.visit([&]<class Level>(const LevelRows<Level>& levels) {
     for_each_best(problem, grouping, levels, cells, team,
-                  [&](const RowPlace& place, PostReader<Level>&, const Level* best, int) {
-                    const MutableRow row = result.row(place.row);
-                    for_each_bit(cells.row(place.row), [&](std::int64_t x) {
+                  [&](const RowPosition& position, PostReader<Level>&, const Level* best, int) {
+                    const MutableRow row = result.row(position.row);
+                    for_each_bit(cells.row(position.row), [&](std::int64_t x) {
                       if (best[x] > 1)
                         row[static_cast<std::size_t>(x / CellSet::kWordBits)] |= Word{1}
                                                                                  << (x % CellSet::kWordBits);
@@ -206,11 +206,12 @@ class WorstChoices {
   explicit WorstChoices(const ActionGrouping& grouping) : grouping_(grouping) {}
 
   /// least[x] = the least level of a post in W, over all choices whose posts lie in W.
-  void find(const RowPlace& place, PostReader<Level>& posts, ConstRow cells, std::vector<Level>& least) {
+  void find(const RowPosition& position, PostReader<Level>& posts, ConstRow cells,
+            std::vector<Level>& least) {
     least.assign(posts.lanes(), PostReader<Level>::kTop);
-    grouping_.group(place, groups_);
+    grouping_.group(position, groups_);
     choose_groups(groups_, GroupChoice::all, candidates_);
-    tuple_.begin(grouping_, place, groups_, candidates_);
+    tuple_.begin(grouping_, position, groups_, candidates_);
     do {
       const ConstRow allowed = tuple_.allowed();
       const Level* const levels = posts.minimum(tuple_.slice_ids());
@@ -271,13 +272,13 @@ LongestReturns find_longest_returns(const LastingProblem& problem, const LevelMa
       longest = std::max(longest, arrival_of(level) + 1);
     };
     for_each_best(problem, grouping, levels, visits, team,
-                  [&](const RowPlace& place, PostReader<Level>& posts, const Level* best, int worker) {
+                  [&](const RowPosition& position, PostReader<Level>& posts, const Level* best, int worker) {
                     const auto w = static_cast<std::size_t>(worker);
-                    const ConstRow cells = visits.row(place.row);
+                    const ConstRow cells = visits.row(position.row);
                     for_each_bit(cells, [&](std::int64_t x) { take(forced[w], best[x]); });
                     if (problem.synthesis == Synthesis::given) return;
                     std::vector<Level> least;
-                    choices[w].find(place, posts, cells, least);
+                    choices[w].find(position, posts, cells, least);
                     for_each_bit(cells, [&](std::int64_t x) {
                       take(any_choice[w], least[static_cast<std::size_t>(x)]);
                     });

@@ -78,10 +78,10 @@ class StayRounds {
   std::int64_t find(const ActionGrouping& grouping) {
     of_round_ = CellSet(nearness_.rows(), nearness_.row_length());
     for_each_best(problem_, grouping, visible_, open_, team_,
-                  [&](const RowPlace& place, PostReader<Level>&, const Level* best, int) {
-                    const Level* const nearness = nearness_.row(place.row);
-                    const MutableRow of_round = of_round_.row(place.row);
-                    for_each_bit(open_.row(place.row), [&](std::int64_t x) {
+                  [&](const RowPosition& position, PostReader<Level>&, const Level* best, int) {
+                    const Level* const nearness = nearness_.row(position.row);
+                    const MutableRow of_round = of_round_.row(position.row);
+                    for_each_bit(open_.row(position.row), [&](std::int64_t x) {
                       if (best[x] <= nearness[x])
                         of_round[static_cast<std::size_t>(x / CellSet::kWordBits)] |= bit_of(x);
                     });

@@ -19,17 +19,17 @@ void keep_only(MutableRow row, ConstRow other) {
 CarefulActions::CarefulActions(const ActionGrouping& grouping, int workers)
     : grouping_(grouping), work_(static_cast<std::size_t>(workers)) {}
 
-bool CarefulActions::next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old,
+bool CarefulActions::next_levels(const RowPosition& position, PostReader<Level>& posts, const Level* old,
                                  Level* next, int worker) {
   Workspace& work = work_[static_cast<std::size_t>(worker)];
   const RowEngine& engine = grouping_.engine();
   const auto n = static_cast<std::size_t>(engine.row_length());
   work.wanted.resize(engine.row_words());
   posts.kernels().top_bits(old, work.wanted.data(), n);
-  grouping_.group(place, work.groups);
+  grouping_.group(position, work.groups);
   choose_groups(work.groups, GroupChoice::all, work.candidates);
-  find_projections(place, posts, work);
-  remove_bad_mixtures(place, posts, work);
+  find_projections(position, posts, work);
+  remove_bad_mixtures(position, posts, work);
   posts.kernels().spread(work.stays.data(), next, n);
   return true;
 }
@@ -43,7 +43,7 @@ void CarefulActions::find_good(PostReader<Level>& posts, std::size_t length, Wor
   if (!allowed.empty()) keep_only(work.good, allowed);
 }
 
-void CarefulActions::find_projections(const RowPlace& place, PostReader<Level>& posts,
+void CarefulActions::find_projections(const RowPosition& position, PostReader<Level>& posts,
                                       Workspace& work) const {
   const std::size_t words = work.wanted.size();
   work.projection.resize(grouping_.size());
@@ -51,7 +51,7 @@ void CarefulActions::find_projections(const RowPlace& place, PostReader<Level>& 
     work.projection[c].assign(work.groups.classes[c]->size() * words, 0);
   work.stays.assign(words, 0);
   work.known.clear();
-  work.tuple.begin(grouping_, place, work.groups, work.candidates);
+  work.tuple.begin(grouping_, position, work.groups, work.candidates);
   do {
     find_good(posts, static_cast<std::size_t>(grouping_.engine().row_length()), work);
     if (work.known.size() < kMostKnown)
@@ -64,11 +64,11 @@ void CarefulActions::find_projections(const RowPlace& place, PostReader<Level>& 
   } while (work.tuple.next());
 }
 
-void CarefulActions::remove_bad_mixtures(const RowPlace& place, PostReader<Level>& posts,
+void CarefulActions::remove_bad_mixtures(const RowPosition& position, PostReader<Level>& posts,
                                          Workspace& work) const {
   if (grouping_.size() == 1) return;
   const std::size_t words = work.wanted.size();
-  work.tuple.begin(grouping_, place, work.groups, work.candidates);
+  work.tuple.begin(grouping_, position, work.groups, work.candidates);
   std::size_t choice = 0;
   do {
     const std::size_t begin = choice++ * words;

@@ -20,7 +20,7 @@ class CarefulActions final : public RowOperator<std::uint8_t> {
   CarefulActions(const ActionGrouping& grouping, int workers);
 
   /// @returns false if the level is kTop for all cells x with old[x] != 0
-  bool next_levels(const RowPlace& place, PostReader<std::uint8_t>& posts, const std::uint8_t* old,
+  bool next_levels(const RowPosition& position, PostReader<std::uint8_t>& posts, const std::uint8_t* old,
                    std::uint8_t* next, int worker) override;
 
  private:
@@ -36,8 +36,9 @@ class CarefulActions final : public RowOperator<std::uint8_t> {
     std::vector<std::vector<Word>> projection;  ///< [class] one row for each group
   };
 
-  void find_projections(const RowPlace& place, PostReader<std::uint8_t>& posts, Workspace& work) const;
-  void remove_bad_mixtures(const RowPlace& place, PostReader<std::uint8_t>& posts, Workspace& work) const;
+  void find_projections(const RowPosition& position, PostReader<std::uint8_t>& posts, Workspace& work) const;
+  void remove_bad_mixtures(const RowPosition& position, PostReader<std::uint8_t>& posts,
+                           Workspace& work) const;
   static void find_good(PostReader<std::uint8_t>& posts, std::size_t length, Workspace& work);
 
   const ActionGrouping& grouping_;

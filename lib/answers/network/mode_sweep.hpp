@@ -32,12 +32,12 @@ PendingRows pending_rows(const NetworkProblem& problem, const CellSet& set, bool
   for_each_local_row(team, engine.share(), engine.rows(), 256, [&](ThreadTeam::Range range, int) {
     RowBox box;
     std::vector<std::int64_t> counter;
-    RowPlace place(engine.grid(), range.begin);
-    for (; place.row < range.end; place.advance(engine.grid())) {
-      if (!any_set(set.row(place.row))) continue;
-      const auto row = static_cast<std::size_t>(place.row);
+    RowPosition position(engine.grid(), range.begin);
+    for (; position.row < range.end; position.advance(engine.grid())) {
+      if (!any_set(set.row(position.row))) continue;
+      const auto row = static_cast<std::size_t>(position.row);
       is_alive[row] = 1;
-      if (!all) problem.hull->box(place, box);
+      if (!all) problem.hull->box(position, box);
       is_pending[row] = all || any_row(engine.grid(), 0, box.ranges, counter, has_changed) ? 1 : 0;
     }
   });
@@ -126,8 +126,8 @@ class ModeSweep {
     kernels().spread(set.data(), worker.old.data(), n);
     // Beyond the row there are no cells.
     std::fill(worker.old.begin() + static_cast<std::ptrdiff_t>(n), worker.old.end(), Level{0});
-    const RowPlace place(engine_.grid(), row);
-    const bool is_computed = op.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w);
+    const RowPosition position(engine_.grid(), row);
+    const bool is_computed = op.next_levels(position, worker.posts, worker.old.data(), worker.next.data(), w);
     const Level* const both[] = {worker.old.data(), is_computed ? worker.next.data() : worker.old.data()};
     kernels().minimum(both, 2, worker.next.data(), n);
   }

@@ -14,11 +14,11 @@ TEST(Fibres, CellsOfRowsWithGapsAreInTheFibreOfWhatIsSeen) {
   const UniformGrid joined = UniformGrid({of_count("a", 2), of_count("b", 3), of_count("c", 5)}).in_rows({4});
   const Fibres fibres(joined, {0, 2});
   EXPECT_EQ(fibres.count(), 10);
-  for (RowPlace place(joined, 0); place.row < joined.rows(); place.advance(joined)) {
+  for (RowPosition position(joined, 0); position.row < joined.rows(); position.advance(joined)) {
     for (std::int64_t b = 0; b < 3; ++b) {
       for (std::int64_t c = 0; c < 5; ++c) {
         const std::int64_t lane = b * joined.stride(1) + c * joined.stride(2);
-        EXPECT_EQ(fibres.base(place) + fibres.of_lane(lane), place.row * 5 + c);
+        EXPECT_EQ(fibres.base(position) + fibres.of_lane(lane), position.row * 5 + c);
       }
     }
   }
