@@ -54,7 +54,7 @@ void check_rank_memory(const AnalysisContext& context, const RankMemory& memory,
   const auto rows = static_cast<double>(context.abstraction->grid.rows());
   const RowShare::Range local_rows = context.share->local();
   const RowFractions fractions{.held = static_cast<double>(held) / rows,
-                               .own = static_cast<double>(local_rows.end - local_rows.begin) / rows,
+                               .local = static_cast<double>(local_rows.end - local_rows.begin) / rows,
                                .slices = bytes_of_slices(*context.engine)};
   const double needed = estimate_memory_of_rank(context.model, threads, memory.before, fractions);
   const std::int64_t most = context.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));

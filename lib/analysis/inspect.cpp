@@ -96,9 +96,9 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
   const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {
     if (limit) check_memory_limit(spec, needed, static_cast<double>(*limit), by_whom);
   };
-  check(need({.held = 1.0 / ranks, .own = 1.0 / ranks}), limits.of_rank,
+  check(need({.held = 1.0 / ranks, .local = 1.0 / ranks}), limits.of_rank,
         fmt::format("on the fullest of {} ranks at least, ", ranks));
-  check(need({.held = 0, .own = 0}), limits.here, "on each rank, however many, ");
+  check(need({.held = 0, .local = 0}), limits.here, "on each rank, however many, ");
   Answers answers(model);
   context_answer.stages(spec).front().run(answers, {.team = team});
   const auto all = static_cast<double>(answers.context.abstraction->grid.rows());
@@ -106,7 +106,7 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
   double most = 0;
   for (const RankRows& rows : rows_of_ranks(answers.context, ranks)) {
     const double needed = need({.held = static_cast<double>(rows.owned + rows.ghosts) / all,
-                                .own = static_cast<double>(rows.owned) / all,
+                                .local = static_cast<double>(rows.owned) / all,
                                 .slices = rows.slices});
     if (needed <= most) continue;
     most = needed;

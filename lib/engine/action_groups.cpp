@@ -165,16 +165,16 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPosition& po
   }
 }
 
-/// The choices of states in own rows, from the first to the last.
+/// The choices of states in local rows, from the first to the last.
 RowShare::Range ActionGrouping::held_choices(const ClassData& data, std::int64_t choices) const {
   const RowShare* const share = engine_->share();
-  const RowShare::Range own = local_rows(share, engine_->rows());
-  if (own.begin == own.end) return {0, 0};
+  const RowShare::Range local = local_rows(share, engine_->rows());
+  if (local.begin == local.end) return {0, 0};
   const std::int64_t of_leading = data.state_stride.front();
   if (share == nullptr || of_leading == 0) return {0, choices};
-  if (choices == engine_->rows()) return own;
+  if (choices == engine_->rows()) return local;
   const std::int64_t rows = engine_->grid().row_stride(0);
-  return {own.begin / rows * of_leading, ((own.end - 1) / rows + 1) * of_leading};
+  return {local.begin / rows * of_leading, ((local.end - 1) / rows + 1) * of_leading};
 }
 
 void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {

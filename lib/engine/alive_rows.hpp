@@ -17,20 +17,20 @@ namespace coordreq {
 /// sunk as deep (risen as high) as cells in the set can; of permuted rows the canonical one is enough.
 class AliveRows {
  public:
-  /// @param own the rows to choose from
+  /// @param local the rows to choose from
   /// @param unit_rows rows of a unit: alive rows are counted by unit
   /// @param symmetry may be null
   template <class Level>
-  AliveRows(const LevelRows<Level>& levels, RowShare::Range own, std::int64_t unit_rows, bool rises,
+  AliveRows(const LevelRows<Level>& levels, RowShare::Range local, std::int64_t unit_rows, bool rises,
             const RowSymmetry* symmetry, ThreadTeam& team)
       : is_alive_(static_cast<std::size_t>(levels.rows())),
-        of_unit_(static_cast<std::size_t>((own.end + unit_rows - 1) / unit_rows), 0) {
-    const std::int64_t first = own.begin / unit_rows;
+        of_unit_(static_cast<std::size_t>((local.end + unit_rows - 1) / unit_rows), 0) {
+    const std::int64_t first = local.begin / unit_rows;
     const std::int64_t units = std::ssize(of_unit_) - first;
     std::vector<std::int64_t> counts(static_cast<std::size_t>(team.size()), 0);
     team.for_each(units, 256, [&](ThreadTeam::Range range, int w) {
-      const std::int64_t begin = std::max(own.begin, (first + range.begin) * unit_rows);
-      const std::int64_t end = std::min(own.end, (first + range.end) * unit_rows);
+      const std::int64_t begin = std::max(local.begin, (first + range.begin) * unit_rows);
+      const std::int64_t end = std::min(local.end, (first + range.end) * unit_rows);
       const Level* before = nullptr;  // rows that are held once often follow one another
       bool can = false;
       for (std::int64_t r = begin; r < end; ++r) {

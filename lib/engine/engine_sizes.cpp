@@ -51,7 +51,7 @@ EngineSizes::EngineSizes(const Model& model, RowFractions fractions)
       widths_(usual_widths(model.spec())),
       grid_(join_rows(model, offsets_)) {
   fractions_.held = std::max(fractions_.held, 1 / in_double(grid_.rows()));
-  fractions_.own = std::max(fractions_.own, 1 / in_double(grid_.rows()));
+  fractions_.local = std::max(fractions_.local, 1 / in_double(grid_.rows()));
   for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
     const GridDimension& dimension = grid_[i];
     const RowMargins margins = window_margins({&offsets_[grid_.state(i)], 1}, dimension);
@@ -98,11 +98,11 @@ double EngineSizes::usual_bytes(std::size_t t) const {
 }
 
 double EngineSizes::fraction_of_table(std::size_t t) const {
-  return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? fractions_.own : 1;
+  return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? fractions_.local : 1;
 }
 
 double EngineSizes::untold_entries() const {
-  if (fractions_.own == 1) return 0;
+  if (fractions_.local == 1) return 0;
   // A flow encloses several states at once, a map one.
   const bool are_together = model_->spec().dynamics.time == Time::continuous;
   double bytes = 0;
@@ -110,7 +110,7 @@ double EngineSizes::untold_entries() const {
     if (shape.sum) continue;
     bytes = are_together ? bytes + shape.bytes : std::max(bytes, shape.bytes);
   }
-  return fractions_.own * bytes;
+  return fractions_.local * bytes;
 }
 
 double EngineSizes::hull() const {
@@ -188,11 +188,11 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
   }
   const double offsets = actions * in_double(std::ssize(grid_.dimensions())) * (sizeof(std::int64_t) + 4);
   if (choices > in_double(most_shared_choices(inputs.actions()))) return offsets;
-  // A process finds those of its own rows, or of their first indices (ActionGrouping::held_choices).
+  // A process finds those of its local rows, or of their first indices (ActionGrouping::held_choices).
   if (grid_.across() > 0 && use[0] != none) {
     const double held = choices < in_double(grid_.rows())
-                            ? std::max(fractions_.own, 1 / in_double(grid_[0].count))
-                            : fractions_.own;
+                            ? std::max(fractions_.local, 1 / in_double(grid_[0].count))
+                            : fractions_.local;
     choices *= held;
     distinct = use[0] == in_full ? distinct * held : std::min(distinct, choices);
   }

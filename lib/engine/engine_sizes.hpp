@@ -15,7 +15,7 @@ namespace coordreq {
 /// The fractions of all rows that one of several processes holds, ghost rows included, and that it owns.
 struct RowFractions {
   double held = 1;
-  double own = 1;
+  double local = 1;
   std::vector<double> slices = {};  ///< [table] bytes of EngineSizes::slices(), once tables are known
 };
 
@@ -72,7 +72,8 @@ class EngineSizes {
   [[nodiscard]] double usual_bytes(std::size_t t) const;
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
   [[nodiscard]] RowMargins reach_of(std::size_t i) const;
-  /// The fraction of table t that the process has: of tables by cells the entries of its own rows, else all.
+  /// The fraction of table t that the process has: of tables by cells the entries of its local rows, else
+  /// all.
   [[nodiscard]] double fraction_of_table(std::size_t t) const;
 
   const Model* model_;

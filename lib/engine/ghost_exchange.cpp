@@ -43,14 +43,14 @@ std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, cons
                                                    std::int64_t unit_rows) {
   const std::vector<RowShare::Peer>& peers = engine.share()->peers();
   std::vector<RowShare::Range> met(peers.size());
-  const RowShare::Range own = engine.share()->local();
+  const RowShare::Range local = engine.share()->local();
   RowBox box;
-  for (std::int64_t begin = own.begin; begin < own.end;) {
+  for (std::int64_t begin = local.begin; begin < local.end;) {
     const std::int64_t unit = begin / unit_rows;
-    const std::int64_t end = std::min((unit + 1) * unit_rows, own.end);
+    const std::int64_t end = std::min((unit + 1) * unit_rows, local.end);
     const RowShare::Range span = span_met(engine, hull, unit_rows, {begin, end}, box);
     begin = end;
-    if (own.begin <= span.begin && span.end <= own.end) continue;
+    if (local.begin <= span.begin && span.end <= local.end) continue;
     for (std::size_t p = 0; p < peers.size(); ++p) {
       const RowShare::Range run = engine.share()->run_of(peers[p].rank);
       if (span.end <= run.begin || run.end <= span.begin) continue;

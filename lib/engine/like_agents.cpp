@@ -107,11 +107,11 @@ std::vector<AbstractAgent> abstract_agents(const Abstraction& abstraction,
   };
   std::vector<AbstractAgent> agents;
   for (const std::vector<std::int32_t>& of_agent : inputs) {
-    const auto is_own = [&of_agent](std::int32_t input) { return contains(of_agent, input); };
+    const auto is_of_agent = [&of_agent](std::int32_t input) { return contains(of_agent, input); };
     const auto is_of_others = [&of_agent](std::int32_t input) { return !contains(of_agent, input); };
     std::vector<std::uint8_t> is_moved(dimensions, 0), is_shared(dimensions, 0);  // [root]
     for (std::size_t d = 0; d < dimensions; ++d) {
-      if (uses(d, is_own)) is_moved[components.root(d)] = 1;
+      if (uses(d, is_of_agent)) is_moved[components.root(d)] = 1;
       if (uses(d, is_of_others)) is_shared[components.root(d)] = 1;
     }
     AbstractAgent& agent = agents.emplace_back(AbstractAgent{of_agent, {}});

@@ -103,13 +103,13 @@ bool any_in_box(std::span<const IndexRange> ranges, const Count& count, const St
     for (;;) {
       if (i == 0) return false;
       --i;
-      const std::int64_t own_stride = stride(i), own_count = count(i);
+      const std::int64_t stride_of_i = stride(i), count_of_i = count(i);
       if (++counter[i] <= ranges[i].last) {
-        row += counter[i] == own_count ? own_stride * (1 - own_count) : own_stride;
+        row += counter[i] == count_of_i ? stride_of_i * (1 - count_of_i) : stride_of_i;
         break;
       }
-      const std::int64_t back = ranges[i].last < own_count ? ranges[i].last : ranges[i].last - own_count;
-      row -= (back - ranges[i].first) * own_stride;
+      const std::int64_t back = ranges[i].last < count_of_i ? ranges[i].last : ranges[i].last - count_of_i;
+      row -= (back - ranges[i].first) * stride_of_i;
       counter[i] = ranges[i].first;
     }
   }

@@ -201,10 +201,10 @@ const Level* SumReader<Level>::patch() {
   Slot* slot = &slots_[at];
   const Level* levels = patches_->find(*unit_, box_, wait_);
   if (levels == nullptr) {
-    slot = &own_slot_;
+    slot = &private_slot_;
     if (slot->epoch == epoch_ && slot->key == box_) return slot->levels;
-    patches_->make(*unit_, box_, own_patch_);
-    levels = own_patch_.data();
+    patches_->make(*unit_, box_, private_patch_);
+    levels = private_patch_.data();
   }
   slot->key = box_;
   slot->epoch = epoch_;

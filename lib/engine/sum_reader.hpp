@@ -97,8 +97,8 @@ class SumReader {
   std::vector<Level> result_;
   std::shared_ptr<typename SumPatches<Level>::Unit> unit_;
   std::vector<Slot> slots_;  ///< by hash: patches that were found
-  Slot own_slot_;            ///< a patch that is not shared, in own_patch_
-  std::vector<Level> own_patch_;
+  Slot private_slot_;        ///< a patch that is not shared, in private_patch_
+  std::vector<Level> private_patch_;
   ShortWait wait_;
   std::uint64_t epoch_ = 1;
 };

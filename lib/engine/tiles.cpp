@@ -54,8 +54,8 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
     : engine_(&engine), hull_(&hull), leading_(leading) {
   rows_ = leading == engine.across() ? 1 : engine.grid().row_stride(leading - 1);
   size_ = engine.rows() / rows_;
-  const RowShare::Range own = local_rows(engine.share(), engine.rows());
-  own_ = {own.begin / rows_, own.end / rows_};
+  const RowShare::Range local = local_rows(engine.share(), engine.rows());
+  local_tiles_ = {local.begin / rows_, local.end / rows_};
   for (std::size_t t = 0; t < engine.tables(); ++t) {
     const RowSlices& slices = engine.slices()[t];
     add_source(slices.state_stride, slices.before, slices.input_combinations, number_choices(t));
@@ -124,9 +124,10 @@ void Tiles::add_tables(std::int64_t tile, Numbers& list) const {
 void Tiles::number_tables(ThreadTeam* team) {
   SharedListNumbers lists;
   tables_.assign(static_cast<std::size_t>(size_), 0);
-  for_each(team, own_.end - own_.begin, kTilesAtOnce, [&](ThreadTeam::Range range, int) {
+  for_each(team, local_tiles_.end - local_tiles_.begin, kTilesAtOnce, [&](ThreadTeam::Range range, int) {
     Numbers list;
-    for (std::int64_t tile = own_.begin + range.begin; tile < own_.begin + range.end; ++tile) {
+    for (std::int64_t tile = local_tiles_.begin + range.begin; tile < local_tiles_.begin + range.end;
+         ++tile) {
       list.clear();
       add_tables(tile, list);
       tables_[static_cast<std::size_t>(tile)] = lists.number(list);
@@ -157,10 +158,11 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content, ThreadTeam
   const Numbers of_tiles = contents_of_tiles(content);
   SharedListNumbers lists;
   Numbers result(static_cast<std::size_t>(size_), 0);
-  for_each(team, own_.end - own_.begin, kTilesAtOnce, [&](ThreadTeam::Range range, int) {
+  for_each(team, local_tiles_.end - local_tiles_.begin, kTilesAtOnce, [&](ThreadTeam::Range range, int) {
     Scratch scratch;
     Numbers list;
-    for (std::int64_t tile = own_.begin + range.begin; tile < own_.begin + range.end; ++tile) {
+    for (std::int64_t tile = local_tiles_.begin + range.begin; tile < local_tiles_.begin + range.end;
+         ++tile) {
       list.assign(1, before[static_cast<std::size_t>(tile)]);
       add_contents(
           RowPosition(engine_->grid(), tile * rows_),
@@ -180,13 +182,13 @@ double Tiles::fraction_different(const Numbers& content) const {
     return std::any_of(dimensions.begin(), dimensions.begin() + static_cast<std::ptrdiff_t>(leading_),
                        [&](const GridDimension& one) { return std::gcd(one.count, step) > 1; });
   };
-  std::int64_t step = std::max<std::int64_t>(1, (own_.end - own_.begin) / kSample);
+  std::int64_t step = std::max<std::int64_t>(1, (local_tiles_.end - local_tiles_.begin) / kSample);
   while (has_common_factor(step)) ++step;
   ListNumbers<std::uint32_t> lists;
   Scratch scratch;
   Numbers list;
   std::int64_t drawn = 0;
-  for (std::int64_t tile = own_.begin; tile < own_.end; tile += step, ++drawn) {
+  for (std::int64_t tile = local_tiles_.begin; tile < local_tiles_.end; tile += step, ++drawn) {
     list.clear();
     add_tables(tile, list);
     const RowPosition position(engine_->grid(), tile * rows_);
@@ -207,8 +209,8 @@ std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, s
 
 std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, const CellSet& set,
                                  ThreadTeam* team) {
-  const RowShare::Range own = local_rows(engine.share(), engine.rows());
-  if (!are_possible(engine) || own.end - own.begin < kFewRows) return std::nullopt;
+  const RowShare::Range local = local_rows(engine.share(), engine.rows());
+  if (!are_possible(engine) || local.end - local.begin < kFewRows) return std::nullopt;
   const Numbers content = number_rows(set, engine.share());
   std::optional<Tiles> best;
   double least = kMostDifferent;
@@ -216,8 +218,8 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
   for (const std::size_t leading : {engine.outer(), engine.across()}) {
     if (leading == 0 || (best && leading == engine.outer())) continue;
     Tiles tiles(engine, hull, leading);
-    if (tiles.own().end - tiles.own().begin < kFewRows) continue;
-    if (own.begin % tiles.rows() != 0 || own.end % tiles.rows() != 0) continue;
+    if (tiles.local_tiles().end - tiles.local_tiles().begin < kFewRows) continue;
+    if (local.begin % tiles.rows() != 0 || local.end % tiles.rows() != 0) continue;
     const double fraction = tiles.fraction_different(content);
     if (fraction >= least) continue;
     least = fraction;

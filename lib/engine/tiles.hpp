@@ -46,7 +46,7 @@ class Tiles {
 
   [[nodiscard]] std::int64_t size() const { return size_; }
   /// The tiles that this process owns.
-  [[nodiscard]] RowShare::Range own() const { return own_; }
+  [[nodiscard]] RowShare::Range local_tiles() const { return local_tiles_; }
   /// Rows of a tile, which have neighbouring numbers.
   [[nodiscard]] std::int64_t rows() const { return rows_; }
   /// Number of leading dimensions that tell tiles apart.
@@ -103,7 +103,7 @@ class Tiles {
   std::size_t leading_;
   std::int64_t rows_;
   std::int64_t size_;
-  RowShare::Range own_;
+  RowShare::Range local_tiles_;
   std::vector<Source> sources_;
   Numbers tables_;
 };

@@ -38,7 +38,7 @@ class WaveBatch {
             RowOperator<Level>& op, ThreadTeam& team, const EqualWork& equal)
       : levels_(levels),
         engine_(engine),
-        own_(local_rows(engine.share(), engine.rows())),
+        local_(local_rows(engine.share(), engine.rows())),
         limit_(limit),
         op_(op),
         team_(team),
@@ -46,7 +46,7 @@ class WaveBatch {
         dirty_(engine, hull, units_),
         memo_(equal, levels),
         symmetry_(equal.symmetry),
-        alive_(levels, own_, units_.rows(), op.rises(), equal.symmetry, team) {
+        alive_(levels, local_, units_.rows(), op.rises(), equal.symmetry, team) {
     const PostReader<Level> posts(engine, levels);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(w, posts, dirty_);
     if (fast_paths().level_delta && op.is_minimum() && !engine.posts().is_cut()) delta_.emplace(engine, team);
@@ -59,9 +59,9 @@ class WaveBatch {
   [[nodiscard]] const AliveRows& alive() const { return alive_; }
   [[nodiscard]] DirtyRows& dirty() { return dirty_; }
   /// The units with rows of this process.
-  [[nodiscard]] std::int64_t first_unit() const { return units_.of(own_.begin); }
+  [[nodiscard]] std::int64_t first_unit() const { return units_.of(local_.begin); }
   [[nodiscard]] std::int64_t unit_count() const {
-    return own_.begin == own_.end ? 0 : units_.of(own_.end - 1) + 1 - first_unit();
+    return local_.begin == local_.end ? 0 : units_.of(local_.end - 1) + 1 - first_unit();
   }
 
   void begin_sweep() {
@@ -167,8 +167,8 @@ class WaveBatch {
   /// Adds what is pending of a unit to what the worker has chosen.
   void choose(std::int64_t unit, std::int64_t turn, Worker& worker) {
     if (!dirty_.is_pending(unit, worker.dirty)) return;
-    const std::int64_t begin = std::max(unit * units_.rows(), own_.begin);
-    const std::int64_t end = std::min((unit + 1) * units_.rows(), own_.end);
+    const std::int64_t begin = std::max(unit * units_.rows(), local_.begin);
+    const std::int64_t end = std::min((unit + 1) * units_.rows(), local_.end);
     if (!memo_.is_on() || memo_.rows() > 1) {
       worker.chosen.push_back({unit, begin, end, units_.rows() == 1});
       if (!memo_.is_on()) return;
@@ -367,7 +367,7 @@ class WaveBatch {
 
   LevelRows<Level>& levels_;
   const RowEngine& engine_;
-  RowShare::Range own_;
+  RowShare::Range local_;
   Level limit_;
   RowOperator<Level>& op_;
   ThreadTeam& team_;

@@ -14,8 +14,8 @@
 
 namespace coordreq {
 
-/// Calls `body(position, posts, best, worker)` for every own row with such cells: what its cells can reach at
-/// best.
+/// Calls `body(position, posts, best, worker)` for every local row with such cells: what its cells can reach
+/// at best.
 template <class Level, class Body>
 void for_each_best(const LastingProblem& problem, const ActionGrouping& grouping,
                    const LevelRows<Level>& levels, const CellSet& cells, ThreadTeam& team, const Body& body) {
