@@ -94,7 +94,8 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
     : problem_(problem),
       options_(options),
       dynamics_(*problem.spec),
-      schedule_(make_schedule(problem, options.policy, options.silent_steps.value_or(kUnbounded), dynamics_, controller_)),
+      schedule_(make_schedule(problem, options.policy, options.silent_steps.value_or(kUnbounded), dynamics_,
+                              controller_)),
       next_(*problem.spec, *problem.abstraction, dynamics_),
       margin_(problem.spec->safe),
       slots_(problem.spec->slot_count()),
@@ -207,18 +208,18 @@ void ClosedLoop::advance(State& state, std::int64_t u, const Nature& nature) {
 }
 
 void ClosedLoop::add_sample(const State& state, RunTrace& trace) {
-  RunTrace::Sample& own =
+  RunTrace::Sample& sample =
       trace.samples.emplace_back(RunTrace::Sample{.state = nearest_doubles(state.exact),
                                                   .measured = nearest_doubles(state.measured),
                                                   .cell = state.place.cell});
   for (std::size_t i = 0; i < state.exact.size(); ++i) slots_[problem_.spec->state_slot(i)] = state.exact[i];
-  own.margin = margin_.value(slots_);
+  sample.margin = margin_.value(slots_);
   const bool is_cell = state.place.kind == Kind::cell, has_left = state.place.kind == Kind::left_safely;
   const bool is_beyond_goal = has_left && is_beyond_goal_side(state);
-  own.delay = is_cell ? delay_[at(own.cell)] : has_left ? kUnbounded : kOutsideSafe;
-  if (!to_aim_.empty()) own.arrival = is_cell ? to_aim_[at(own.cell)] : is_beyond_goal ? 0 : kUnbounded;
-  const bool is_there = !to_aim_.empty() && own.arrival == 0;
-  if (goal_) own.in_goal = has_left ? is_beyond_goal : (is_cell && is_there) || goal_->value(slots_) >= 0;
+  sample.delay = is_cell ? delay_[at(sample.cell)] : has_left ? kUnbounded : kOutsideSafe;
+  if (!to_aim_.empty()) sample.arrival = is_cell ? to_aim_[at(sample.cell)] : is_beyond_goal ? 0 : kUnbounded;
+  const bool is_there = !to_aim_.empty() && sample.arrival == 0;
+  if (goal_) sample.in_goal = has_left ? is_beyond_goal : (is_cell && is_there) || goal_->value(slots_) >= 0;
   if (is_there && !trace.arrived) trace.arrived = std::ssize(trace.samples) - 1;
 }
 

@@ -75,10 +75,10 @@ struct TransitionTable {
     return place >= 0 && place < std::ssize(entries) ? &entries[static_cast<std::size_t>(place)] : nullptr;
   }
 
-  /// Raw range of state `own` where `state(i)` and `input(i)` are the indices of states and inputs.
+  /// Raw range of state `target` where `state(i)` and `input(i)` are the indices of states and inputs.
   template <class State, class Input>
-  [[nodiscard]] IndexRange range(std::size_t own, const State& state, const Input& input) const {
-    const std::int64_t offset = shift ? state(own) : 0;
+  [[nodiscard]] IndexRange range(std::size_t target, const State& state, const Input& input) const {
+    const std::int64_t offset = shift ? state(target) : 0;
     const auto place = static_cast<std::size_t>(position(*this, state, input) - before);
     if (!is_sum()) return shift ? moved(entries[place], offset) : entries[place];
     std::int64_t lower = base_lower[place];
@@ -94,7 +94,7 @@ struct TransitionTable {
   /// The least range around range() under `inputs_count` joint choices of `inputs`, which is all of them:
   /// they stand side by side. @pre it is no sum
   template <class State>
-  [[nodiscard]] IndexRange around_inputs(std::size_t own, const State& state,
+  [[nodiscard]] IndexRange around_inputs(std::size_t target, const State& state,
                                          std::size_t inputs_count) const {
     REQUIRES(!is_sum());
     const auto first = static_cast<std::size_t>(
@@ -104,7 +104,7 @@ struct TransitionTable {
       around.first = std::min(around.first, entries[first + k].first);
       around.last = std::max(around.last, entries[first + k].last);
     }
-    return shift ? moved(around, state(own)) : around;
+    return shift ? moved(around, state(target)) : around;
   }
 
   static constexpr int kFractionBits = 32;

@@ -151,10 +151,12 @@ class TableBuilder {
     std::int64_t last = 0;
 
     [[nodiscard]] bool stays(const std::vector<std::int64_t>& cell) const {
-      std::vector<std::int64_t> own;
-      for (const std::size_t place : places) own.push_back(cell[place]);
-      return std::all_of(lower.begin(), lower.end(), [&](const IndexForm& f) { return f.ceil(own) > 0; }) &&
-             std::all_of(upper.begin(), upper.end(), [&](const IndexForm& f) { return f.floor(own) < last; });
+      std::vector<std::int64_t> indices;
+      for (const std::size_t place : places) indices.push_back(cell[place]);
+      return std::all_of(lower.begin(), lower.end(),
+                         [&](const IndexForm& f) { return f.ceil(indices) > 0; }) &&
+             std::all_of(upper.begin(), upper.end(),
+                         [&](const IndexForm& f) { return f.floor(indices) < last; });
     }
   };
 
@@ -271,8 +273,9 @@ class TableBuilder {
         row.is_stopped || row.rate->first + slowest >= 0 || row.rate->second + fastest <= 0;
     if (!has_direction) return std::nullopt;
     const auto& moving = dependencies_.moving;
-    const auto own = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state_));
-    const Piece start = post_.pieces_of(state_, cell[static_cast<std::size_t>(own - moving.begin())]).front();
+    const auto found = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state_));
+    const Piece start =
+        post_.pieces_of(state_, cell[static_cast<std::size_t>(found - moving.begin())]).front();
     return cells_covering(grid_[state_], std::min(start.lower, lower), std::max(start.upper, upper));
   }
 

@@ -11,7 +11,7 @@
 namespace coordreq {
 
 /// The entries of a table in full while they are computed, each for one choice of indices. One process
-/// writes them into the table; of several each keeps those of its own choices, and in the end all hear of
+/// writes them into the table; of several each keeps those of its local choices, and in the end all receive
 /// them and put into their tables what these hold.
 class DividedEntries {
  public:
@@ -22,15 +22,15 @@ class DividedEntries {
     std::int64_t first = 0;
   };
 
-  /// @param own numbers of the choices of this process
+  /// @param local numbers of the choices of this process
   /// @pre unchecked: the table, which has its final length, and `ranks`, null if there is one process,
   /// outlive this object.
-  DividedEntries(TransitionTable& table, Places places, ThreadTeam::Range own, Ranks* ranks);
+  DividedEntries(TransitionTable& table, Places places, ThreadTeam::Range local, Ranks* ranks);
 
-  /// The entry of one of its own choices. @param position of the entry
+  /// The entry of a local choice. @param position of the entry
   [[nodiscard]] IndexRange& at(std::int64_t choice, std::int64_t position) {
     return ranks_ == nullptr ? table_->entries[static_cast<std::size_t>(position)]
-                             : part_[static_cast<std::size_t>(choice - own_.begin)];
+                             : local_entries_[static_cast<std::size_t>(choice - local_.begin)];
   }
 
   /// Together, once all are there.
@@ -39,9 +39,9 @@ class DividedEntries {
  private:
   TransitionTable* table_;
   Places places_;
-  ThreadTeam::Range own_;
+  ThreadTeam::Range local_;
   Ranks* ranks_;
-  std::vector<IndexRange> part_;
+  std::vector<IndexRange> local_entries_;
 };
 
 }  // namespace coordreq

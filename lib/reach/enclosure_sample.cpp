@@ -46,8 +46,8 @@ std::vector<EnclosedGroup> enclosed_groups(const SystemSpec& spec, const std::ve
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     if (!is_enclosed(spec, dynamics, i)) continue;
     const auto serves = [&](const EnclosedGroup& group) {
-      const Dependencies& own = shapes[group.states.front()];
-      return spec.dynamics.time == Time::continuous && own == shapes[i] && group.terms == shapes[i].terms;
+      const Dependencies& shape = shapes[group.states.front()];
+      return spec.dynamics.time == Time::continuous && shape == shapes[i] && group.terms == shapes[i].terms;
     };
     const auto group = std::find_if(groups.begin(), groups.end(), serves);
     if (group == groups.end()) {

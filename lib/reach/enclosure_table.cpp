@@ -44,16 +44,16 @@ class EnclosureTable {
   [[nodiscard]] const TransitionTable& table() const { return table_; }
 
   /// Says where entries lie and which choices are those of this process; null: there is one.
-  void divide(const DividedEntries::Places& places, ThreadTeam::Range own, Ranks* ranks) {
-    entries_.emplace(table_, places, own, ranks);
-    if (tube_ != nullptr) tube_entries_.emplace(*tube_, places, own, ranks);
+  void divide(const DividedEntries::Places& places, ThreadTeam::Range local, Ranks* ranks) {
+    entries_.emplace(table_, places, local, ranks);
+    if (tube_ != nullptr) tube_entries_.emplace(*tube_, places, local, ranks);
   }
 
   /// Says where the state itself is among the choices; only a tube asks for it, and not of differences.
-  void set_own(std::size_t place, std::int64_t first, std::int64_t count) {
-    own_ = place;
+  void set_target(std::size_t place, std::int64_t first, std::int64_t count) {
+    target_choice_ = place;
     if (tube_ == nullptr) return;
-    for (std::int64_t k = first; k < first + count; ++k) own_pieces_.push_back(pieces(target_, k));
+    for (std::int64_t k = first; k < first + count; ++k) target_pieces_.push_back(pieces(target_, k));
   }
 
   /// A choice that is worked on: its number, and the position of its entry.
@@ -108,8 +108,8 @@ class EnclosureTable {
     }
     if (!result.drift.is_finite())
       return cells_covering(target_, exact(result.tube.lower), exact(result.tube.upper));
-    const Piece& start =
-        own_pieces_[static_cast<std::size_t>(choice[own_])][static_cast<std::size_t>(piece[own_])];
+    const Piece& start = target_pieces_[static_cast<std::size_t>(choice[target_choice_])]
+                                       [static_cast<std::size_t>(piece[target_choice_])];
     const Rational from_below = start.lower + exact(result.drift.lower);
     const Rational from_above = start.upper + exact(result.drift.upper);
     if (!is_bounded) return cells_covering(target_, from_below, from_above);
@@ -174,16 +174,16 @@ class EnclosureTable {
   TransitionTable* tube_;  ///< null if not asked for
   std::optional<DividedEntries> entries_, tube_entries_;
   std::size_t state_;
-  bool differences_;                            ///< enclosures are of the next value less the present one
-  std::size_t own_ = 0;                         ///< its place among the choices, unless these are differences
-  std::vector<std::vector<Piece>> own_pieces_;  ///< [index][piece], exactly
+  bool differences_;               ///< enclosures are of the next value less the present one
+  std::size_t target_choice_ = 0;  ///< its place among the choices, unless these are differences
+  std::vector<std::vector<Piece>> target_pieces_;  ///< [index][piece], exactly
 };
 
 }  // namespace
 
 void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                             const std::vector<std::size_t>& states, ThreadTeam& team,
-                            std::optional<std::int64_t> own, Ranks* ranks) {
+                            std::optional<std::int64_t> index, Ranks* ranks) {
   const Dependencies& dependencies = dynamics.dependencies(states.front());
   const StateEnclosure enclosure(spec, dependencies, states);
   BoxChoices choices;
@@ -194,14 +194,14 @@ void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynami
   const TransitionTable& layout = tables.front().table();
   DividedEntries::Places places;
   for (const std::int32_t j : layout.states) {
-    const bool own_of_shift = layout.shift && at(j) == states.front();
-    if (own_of_shift && enclosure.shifts()) continue;
+    const bool is_shifted = layout.shift && at(j) == states.front();
+    if (is_shifted && enclosure.shifts()) continue;
     const GridDimension& dimension = abstraction.grid[at(j)];
-    const bool only_one = own && at(j) == states.front();
-    const std::int64_t from = only_one && !own_of_shift ? *own : 0;
-    const std::int64_t count = only_one || own_of_shift ? 1 : dimension.count;
+    const bool only_one = index && at(j) == states.front();
+    const std::int64_t from = only_one && !is_shifted ? *index : 0;
+    const std::int64_t count = only_one || is_shifted ? 1 : dimension.count;
     for (EnclosureTable& table : tables) {
-      if (table.state() == at(j)) table.set_own(places.counts.size(), from, count);
+      if (table.state() == at(j)) table.set_target(places.counts.size(), from, count);
     }
     choices.add_state(dimension, spec.state_slot(at(j)), count, from);
     places.first += from * layout.state_stride[at(j)];

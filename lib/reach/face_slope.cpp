@@ -31,7 +31,7 @@ std::vector<std::size_t> mentioned(const Program& equation, const std::vector<st
 
 FaceSlope::FaceSlope(const FlowSystem& system, std::size_t state)
     : system_(&system),
-      own_(state),
+      state_(state),
       value_(*system.equations[state]),
       derivative_(*system.equations[state]),
       states_(mentioned(*system.equations[state], system.state_slots)),
@@ -117,7 +117,7 @@ void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
     part.bound.least = std::min(part.bound.start, part.bound.end);
     part.bound.spread = duration * (rate.upper - rate.lower);
     for (std::size_t k = 0; k < states_.size(); ++k) {
-      if (states_[k] == own_) part.bound.decay = gradient_[k].lower;
+      if (states_[k] == state_) part.bound.decay = gradient_[k].lower;
     }
     part.bound.found = start.total && start.is_finite() && rate.is_finite();
   }
@@ -127,8 +127,8 @@ void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
 void FaceSlope::place_states(const MovingBounds& bounds, bool upper, bool at_start) {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const std::size_t j = states_[k];
-    const bool at_upper = j == own_ ? upper : at_[k] == At::upper;
-    const bool at_lower = j == own_ ? !upper : at_[k] == At::lower;
+    const bool at_upper = j == state_ ? upper : at_[k] == At::upper;
+    const bool at_lower = j == state_ ? !upper : at_[k] == At::lower;
     Interval& slot = slots_[system_->state_slots[j]];
     if (at_upper || at_lower) {
       const MovingEnd& end = at_upper ? bounds.upper[j] : bounds.lower[j];
@@ -167,7 +167,7 @@ bool FaceSlope::use_signs(bool upper, Part& part) {
   bool any = false;
   const auto keeps_sign = [](const Interval& a) { return a.lower >= 0.0 || a.upper <= 0.0; };
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    if (states_[k] == own_ || at_[k] != At::anywhere || !keeps_sign(gradient_[k])) continue;
+    if (states_[k] == state_ || at_[k] != At::anywhere || !keeps_sign(gradient_[k])) continue;
     at_[k] = (gradient_[k].lower >= 0.0) == upper ? At::upper : At::lower;
     any = true;
   }
@@ -208,8 +208,8 @@ Interval FaceSlope::rate_of_change(const MovingBounds& bounds, bool upper) const
   Interval sum{0.0, 0.0};
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const std::size_t j = states_[k];
-    const bool at_upper = j == own_ ? upper : at_[k] == At::upper;
-    const bool at_lower = j == own_ ? !upper : at_[k] == At::lower;
+    const bool at_upper = j == state_ ? upper : at_[k] == At::upper;
+    const bool at_lower = j == state_ ? !upper : at_[k] == At::lower;
     if (at_upper || at_lower) {
       sum = sum + gradient_[k] * (at_upper ? bounds.upper[j].rate : bounds.lower[j].rate);
     } else {

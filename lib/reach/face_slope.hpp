@@ -52,9 +52,9 @@ class FaceSlope {
   /// The right-hand side over a box of the states, by intervals.
   [[nodiscard]] Interval over(std::span<const Interval> box);
 
-  /// The largest (or least) value on the moving face where the own state is at its upper (lower) end and the
-  /// others are within their bounds, over all disturbances. Monotone variables are put at the end where the
-  /// extreme is, the boxes of disturbances are divided.
+  /// The largest (or least) value on the moving face where the state itself is at its upper (lower) end and
+  /// the others are within their bounds, over all disturbances. Monotone variables are put at the end where
+  /// the extreme is, the boxes of disturbances are divided.
   /// @param negligible what a disturbance need not be divided for
   [[nodiscard]] Bound on_face(const MovingBounds& bounds, bool upper, double negligible);
 
@@ -76,10 +76,10 @@ class FaceSlope {
   void find_widest(Part& part) const;
 
   const FlowSystem* system_;
-  std::size_t own_;
+  std::size_t state_;
   Evaluator<Interval> value_;
   Evaluator<Dual> derivative_;
-  std::vector<std::size_t> states_;        ///< that the equation mentions, and the own one
+  std::vector<std::size_t> states_;        ///< that the equation mentions, and the state itself
   std::vector<std::size_t> disturbances_;  ///< that it mentions
   std::vector<Interval> slots_;
   std::vector<Dual> dual_;

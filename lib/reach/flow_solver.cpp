@@ -246,8 +246,8 @@ bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool di
   jacobian_.evaluate(box_);
   note_rates();
   for (std::size_t i = 0; i < n_; ++i) {
-    const auto own = static_cast<Eigen::Index>(i);
-    const double strongest = jacobian_.state()(own, own).lower * duration.upper;
+    const auto index = static_cast<Eigen::Index>(i);
+    const double strongest = jacobian_.state()(index, index).lower * duration.upper;
     if (strongest < -kStrongDecay) damped_[i] = true;
   }
   if (transition_.enclose(jacobian_.state(), duration, damped_)) {

@@ -226,8 +226,8 @@ FlowTape::FlowTape(std::span<const Program* const> equations, std::span<const st
   }
   for (const Index output : outputs) {
     const std::vector<bool> needed = reached(*this, {output}, value_operands);
-    std::vector<Index>& own = values_of.emplace_back();
-    std::copy_if(values.begin(), values.end(), std::back_inserter(own), [&](Index i) { return needed[i]; });
+    std::vector<Index>& list = values_of.emplace_back();
+    std::copy_if(values.begin(), values.end(), std::back_inserter(list), [&](Index i) { return needed[i]; });
   }
 }
 

@@ -70,9 +70,9 @@ std::optional<NilpotentFlow> nilpotent_flow(const SystemSpec& spec, std::size_t 
   const std::optional<AffineSystem> system = affine_system(spec, dependencies, slots);
   if (!system) return std::nullopt;
   const std::vector<std::int32_t>& moving = dependencies.moving;
-  const auto own = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state));
+  const auto found = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state));
   NilpotentFlow flow;
-  flow.rows = krylov_rows(system->state, own - moving.begin());
+  flow.rows = krylov_rows(system->state, found - moving.begin());
   if (flow.rows.rows() == 0) return std::nullopt;
   const RationalMatrix positive = flow.rows.cwiseMax(Rational(0));
   const RationalMatrix negative = flow.rows.cwiseMin(Rational(0));

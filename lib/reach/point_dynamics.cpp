@@ -131,8 +131,8 @@ std::optional<double> PointDynamics::double_next(std::size_t i) {
   if (!flows_[i]) {
     const std::vector<std::int32_t>& moving = affine_.dependencies(i).moving;
     flows_[i] = std::make_unique<PointFlow>(*spec_, moving);
-    const auto own = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(i));
-    positions_[i] = static_cast<std::size_t>(own - moving.begin());
+    const auto found = std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(i));
+    positions_[i] = static_cast<std::size_t>(found - moving.begin());
   }
   const std::optional<std::vector<double>> end = flows_[i]->after_period(doubles_);
   if (!end) return std::nullopt;

@@ -113,8 +113,8 @@ void SampledEnds::follow(std::size_t state, std::span<const Interval> slots) {
 std::optional<Interval> SampledEnds::next(std::size_t state, std::span<const Interval> slots) {
   if (spec_->dynamics.update(state) != nullptr) return std::nullopt;
   if (!is_followed(state, slots)) follow(state, slots);
-  const auto own = std::ranges::find(ends_of_, static_cast<std::int32_t>(state));
-  const Interval& end = ends_[at(own - ends_of_.begin())];
+  const auto found = std::ranges::find(ends_of_, static_cast<std::int32_t>(state));
+  const Interval& end = ends_[at(found - ends_of_.begin())];
   return end.is_finite() ? std::optional(end) : std::nullopt;
 }
 

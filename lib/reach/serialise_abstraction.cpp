@@ -23,12 +23,12 @@ void serialise_by_cells(Archive& archive, const UniformGrid& grid, const HeldCel
                         TransitionTable& table) {
   const std::size_t last = grid.dimension_of(held.order.back());
   const std::int64_t row = grid[last].count, entries = table.state_stride[last] * row;
-  const ThreadTeam::Range own{held.begin / row, held.end / row};
+  const ThreadTeam::Range local{held.begin / row, held.end / row};
   NumberRows rows = number_rows<std::int32_t>(nullptr, kNumbersOfEntry * entries, grid.points() / row,
                                               kNumbersOfEntry * entries);
-  if (own.begin < own.end)
-    rows.first = reinterpret_cast<std::byte*>(table.entries.data()) - own.begin * rows.stride;
-  archive.grid_rows(rows, own, {&own, 1});
+  if (local.begin < local.end)
+    rows.first = reinterpret_cast<std::byte*>(table.entries.data()) - local.begin * rows.stride;
+  archive.grid_rows(rows, local, {&local, 1});
 }
 
 void serialise_entries(Archive& archive, const UniformGrid& grid, const std::optional<HeldCells>& held,

@@ -100,9 +100,9 @@ double SolutionSpread::error_in_steps() const {
   const Values error = pair_.error();
   double worst = 0.0;
   for (Eigen::Index i = 0; i < error.size(); ++i) {
-    const double own = std::fabs(error(i)) / steps_[static_cast<std::size_t>(i)];
-    if (!std::isfinite(pair_.end()(i)) || !std::isfinite(own)) return std::nan("");
-    worst = std::max(worst, own);
+    const double in_steps = std::fabs(error(i)) / steps_[static_cast<std::size_t>(i)];
+    if (!std::isfinite(pair_.end()(i)) || !std::isfinite(in_steps)) return std::nan("");
+    worst = std::max(worst, in_steps);
   }
   return worst;
 }

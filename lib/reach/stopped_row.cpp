@@ -95,12 +95,12 @@ class RowMaker {
     for (std::size_t j = 0; j < moving_.size(); ++j) {
       if (stops(j) && !is_integrator(j)) return std::nullopt;
     }
-    const auto own = std::find(moving_.begin(), moving_.end(), static_cast<std::int32_t>(state_));
-    REQUIRES(own != moving_.end());
-    own_ = static_cast<std::size_t>(own - moving_.begin());
-    StoppedRow row{.parts = {}, .lower = drift(), .upper = drift(), .is_stopped = stops(own_)};
-    if (forms_[own_]->lower == forms_[own_]->upper && !is_moved_by_free_states())
-      row.rate.emplace(rate(own_, false), rate(own_, true));
+    const auto found = std::find(moving_.begin(), moving_.end(), static_cast<std::int32_t>(state_));
+    REQUIRES(found != moving_.end());
+    target_ = static_cast<std::size_t>(found - moving_.begin());
+    StoppedRow row{.parts = {}, .lower = drift(), .upper = drift(), .is_stopped = stops(target_)};
+    if (forms_[target_]->lower == forms_[target_]->upper && !is_moved_by_free_states())
+      row.rate.emplace(rate(target_, false), rate(target_, true));
     if (!add_disturbances(row)) return std::nullopt;
     for (std::size_t j = 0; j < moving_.size(); ++j) {
       std::optional<std::vector<StoppedRow::Part>> parts = stops(j) ? of_stopped(j) : of_free(j);
@@ -123,7 +123,7 @@ class RowMaker {
   }
   /// Of x_i' in a state.
   [[nodiscard]] Rational slope(std::size_t j) const {
-    return forms_[own_]->state(static_cast<Eigen::Index>(j));
+    return forms_[target_]->state(static_cast<Eigen::Index>(j));
   }
   [[nodiscard]] bool is_integrator(std::size_t j) const {
     const AffineForm& form = *forms_[j];
@@ -139,11 +139,11 @@ class RowMaker {
     const RationalVector weights = exponential_terms(spec_.dynamics.period, terms + 1);
     Rational sum = 0;
     for (Eigen::Index k = 0; k < terms; ++k) {
-      Rational own = flow_->lower(k);
+      Rational term = flow_->lower(k);
       for (std::size_t j = 0; j < moving_.size(); ++j) {
-        if (stops(j)) own -= entry(k, j) * forms_[j]->lower;
+        if (stops(j)) term -= entry(k, j) * forms_[j]->lower;
       }
-      sum += own * weights(k + 1);
+      sum += term * weights(k + 1);
     }
     return sum;
   }
@@ -243,7 +243,7 @@ class RowMaker {
   const std::vector<std::int32_t>& moving_;
   const std::vector<std::int32_t>& disturbances_;
   std::size_t state_;
-  std::size_t own_ = 0;  ///< its place among the moving states
+  std::size_t target_ = 0;  ///< its position among the moving states
   std::optional<NilpotentFlow> flow_;
   std::vector<std::optional<AffineForm>> forms_;  ///< [moving state]
 };

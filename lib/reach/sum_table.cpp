@@ -222,16 +222,16 @@ class SumTables {
 
 std::vector<std::int32_t> summed_states(const SystemSpec& spec, const Dependencies& dependencies,
                                         const AffinePart& part, std::size_t state) {
-  const auto own = static_cast<std::int32_t>(state);
+  const auto index = static_cast<std::int32_t>(state);
   const StateSpec& target = spec.states[state];
   if (target.discrete || target.below == Outside::periodic) return {};
   // In continuous time the rows of Phi are those of A.
-  if (spec.dynamics.time == Time::continuous && !contains(part.states, own)) return {};
+  if (spec.dynamics.time == Time::continuous && !contains(part.states, index)) return {};
   const bool shift = is_shift(spec, dependencies, state);
-  if (shift && !contains(part.states, own)) return {};
+  if (shift && !contains(part.states, index)) return {};
   std::vector<std::int32_t> result;
   for (const std::int32_t j : part.states) {
-    if (!(shift && j == own)) result.push_back(j);
+    if (!(shift && j == index)) result.push_back(j);
   }
   const auto too_long = [](const StateSpec& any) {
     return static_cast<double>(any.grid.count) > kLargestTerm;

@@ -170,8 +170,8 @@ struct Part {
   }
   /// r^2 = p.
   Balls root(const SeriesNode& node, size_t k) const {
-    const size_t own_last = last(node.self, true);
-    const Balls known = convolution(node.self, own_last, node.self, own_last, k, 1, k - 1);
+    const size_t r_last = last(node.self, true);
+    const Balls known = convolution(node.self, r_last, node.self, r_last, k, 1, k - 1);
     return over(minus(of(node.p, node.p_moves, k), known), times(exactly(2), at(node.self, 0)));
   }
   /// p r' = q r p' for a fixed exponent q: k p_0 r_k = sum of ((q + 1) j - k) p_j r_{k-j} over 1 <= j <= k.

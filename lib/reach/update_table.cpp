@@ -57,11 +57,11 @@ void build_update_table(const SystemSpec& spec, Abstraction& abstraction, std::s
   add_states(false);
   const Odometer boxes({counts.begin() + static_cast<std::ptrdiff_t>(first_box), counts.end()});
   const std::int64_t boxes_of_point = boxes.size();
-  const ThreadTeam::Range own_points = divided_range(ranks, points.size());
-  const ThreadTeam::Range own{own_points.begin * boxes_of_point, own_points.end * boxes_of_point};
-  DividedEntries entries(table, {counts, strides}, own, ranks);
+  const ThreadTeam::Range local_points = divided_range(ranks, points.size());
+  const ThreadTeam::Range local{local_points.begin * boxes_of_point, local_points.end * boxes_of_point};
+  DividedEntries entries(table, {counts, strides}, local, ranks);
   std::optional<DividedEntries> tube_entries;
-  if (tube != nullptr) tube_entries.emplace(*tube, DividedEntries::Places{counts, strides}, own, ranks);
+  if (tube != nullptr) tube_entries.emplace(*tube, DividedEntries::Places{counts, strides}, local, ranks);
   std::vector<std::unique_ptr<UpdateRanges>> scratch(static_cast<std::size_t>(team.size()));
   for_each_divided(ranks, team, points.size(), 1, [&](ThreadTeam::Range range, int worker) {
     std::unique_ptr<UpdateRanges>& ranges = scratch[static_cast<std::size_t>(worker)];

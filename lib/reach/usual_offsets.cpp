@@ -29,11 +29,11 @@ std::vector<IndexRange> usual_offsets(const SystemSpec& spec) {
   std::vector<IndexRange> result;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const GridSpec& grid = spec.states[i].grid;
-    std::vector<Interval> own = slots;
+    std::vector<Interval> arguments = slots;
     // For the equation x + g this is g.
-    if (is_discrete) own[spec.state_slot(i)] = Interval(0, 0);
+    if (is_discrete) arguments[spec.state_slot(i)] = Interval(0, 0);
     Evaluator<Interval> evaluator(spec.dynamics.equations[i]);
-    const Interval moved = evaluator.number(own);
+    const Interval moved = evaluator.number(arguments);
     const double scale = (is_discrete ? 1 : nearest_double(spec.dynamics.period)) / nearest_double(grid.step);
     const double most = std::min(static_cast<double>(grid.count), 1e9);
     const auto index = [&](double length) {

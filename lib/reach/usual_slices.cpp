@@ -74,8 +74,8 @@ class RowDraw {
   void add_post(std::int64_t from, Row& row) {
     Interval next = evaluator_.number(slots_);
     if (spec_.dynamics.time == Time::continuous) {
-      const Interval& own = slots_[spec_.state_slot(state_)];
-      next = Interval(own.lower + period_ * next.lower, own.upper + period_ * next.upper);
+      const Interval& present = slots_[spec_.state_slot(state_)];
+      next = Interval(present.lower + period_ * next.lower, present.upper + period_ * next.upper);
     }
     const Scale& scale = scales_[state_];
     const auto count = static_cast<double>(spec_.states[state_].grid.count);
