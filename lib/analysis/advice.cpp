@@ -111,7 +111,7 @@ Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, 
 Json warnings_json(const Warnings& warnings) {
   Json json = Json::array();
   for (const Warning& warning : warnings)
-    json.push_back({{"kind", warning.kind}, {"place", warning.place}, {"message", warning.text}});
+    json.push_back({{"kind", warning.kind}, {"place", warning.pointer}, {"message", warning.text}});
   return json;
 }
 

@@ -10,8 +10,8 @@ namespace coordreq {
 struct Warning {
   std::string kind;  ///< "grid", "unused", "units", "motion", "standing", ...: docs/how-to/grids.md says what
                      ///< each means
-  std::string place;  ///< JSON pointer
-  std::string text;   ///< one line
+  std::string pointer;  ///< JSON pointer
+  std::string text;     ///< one line
 };
 using Warnings = std::vector<Warning>;
 

@@ -21,10 +21,10 @@ struct NumberRows {
   std::int64_t row_length = 0;  ///< numbers
   NumberKind kind = NumberKind::unsigned_integer;
   std::int64_t number_bytes = 1;
-  const std::uint32_t* places = nullptr;  ///< [row] its number in memory; null: the row itself
+  const std::uint32_t* slots = nullptr;  ///< [row] its number in memory; null: the row itself
 
   [[nodiscard]] std::byte* row(std::int64_t r) const {
-    return first + (places == nullptr ? r : std::int64_t{places[r]}) * stride;
+    return first + (slots == nullptr ? r : std::int64_t{slots[r]}) * stride;
   }
   [[nodiscard]] std::int64_t row_bytes() const { return row_length * number_bytes; }
 
@@ -32,10 +32,10 @@ struct NumberRows {
   [[nodiscard]] NumberRows range(std::int64_t begin, std::int64_t end) const {
     NumberRows result = *this;
     result.rows = end - begin;
-    if (places == nullptr) {
+    if (slots == nullptr) {
       result.first = row(begin);
     } else {
-      result.places += begin;
+      result.slots += begin;
     }
     return result;
   }

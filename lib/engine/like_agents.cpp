@@ -47,12 +47,12 @@ bool are_alike(const Abstraction& abstraction, const TransitionTable& a, const T
   }
   Odometer choice(counts);
   do {
-    std::int64_t place = 0, like = 0;
+    std::int64_t position = 0, like = 0;
     for (std::size_t k = 0; k < counts.size(); ++k) {
-      place += choice[k] * strides[k];
+      position += choice[k] * strides[k];
       like += choice[k] * other_strides[k];
     }
-    if (a.entries[at(place)] != b.entries[at(like)]) return false;
+    if (a.entries[at(position)] != b.entries[at(like)]) return false;
   } while (choice.advance());
   return true;
 }

@@ -17,7 +17,7 @@ template <class Level>
 [[nodiscard]] NumberRows rows_of(const LevelRows<Level>& levels) {
   if (levels.rows() == 0) return {};
   NumberRows rows = number_rows(levels.first_slot(), levels.stride(), levels.rows(), levels.row_length());
-  if (levels.is_interned()) rows.places = levels.slots().data();
+  if (levels.is_interned()) rows.slots = levels.slots().data();
   return rows;
 }
 

@@ -71,18 +71,18 @@ struct TransitionTable {
 
   /// The entry at a position; null if it is not held.
   [[nodiscard]] IndexRange* held(std::int64_t position) {
-    const std::int64_t place = position - before;
-    return place >= 0 && place < std::ssize(entries) ? &entries[static_cast<std::size_t>(place)] : nullptr;
+    const std::int64_t index = position - before;
+    return index >= 0 && index < std::ssize(entries) ? &entries[static_cast<std::size_t>(index)] : nullptr;
   }
 
   /// Raw range of state `target` where `state(i)` and `input(i)` are the indices of states and inputs.
   template <class State, class Input>
   [[nodiscard]] IndexRange range(std::size_t target, const State& state, const Input& input) const {
     const std::int64_t offset = shift ? state(target) : 0;
-    const auto place = static_cast<std::size_t>(position(*this, state, input) - before);
-    if (!is_sum()) return shift ? moved(entries[place], offset) : entries[place];
-    std::int64_t lower = base_lower[place];
-    std::int64_t upper = base_upper[place];
+    const auto index = static_cast<std::size_t>(position(*this, state, input) - before);
+    if (!is_sum()) return shift ? moved(entries[index], offset) : entries[index];
+    std::int64_t lower = base_lower[index];
+    std::int64_t upper = base_upper[index];
     for (const TransitionTerm& term : terms) {
       const auto at = static_cast<std::size_t>(position(term, state, input));
       lower += term.lower[at];
@@ -169,7 +169,7 @@ std::int64_t lay_out_by_cells(TransitionTable& table, const std::vector<std::siz
                               const UniformGrid& grid, const InputSpace& inputs);
 
 /// The same abstraction with its states in another order, `order` as for UniformGrid::arranged(). Entries
-/// stay where they are; only strides change places.
+/// stay where they are; only strides are exchanged.
 [[nodiscard]] Abstraction arranged(Abstraction abstraction, const std::vector<std::size_t>& order);
 
 /// The table of `state` with every entry written out: the same ranges in full.

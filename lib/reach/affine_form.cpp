@@ -15,8 +15,8 @@ namespace coordreq {
 namespace {
 
 /// " at x = 1, u = 0.5"; empty without parameters and inputs.
-std::string place(const SystemSpec& spec, const Dependencies& dependencies,
-                  const std::vector<Rational>& slots) {
+std::string location(const SystemSpec& spec, const Dependencies& dependencies,
+                     const std::vector<Rational>& slots) {
   std::string text;
   const auto append = [&](const std::string& name, std::uint32_t slot) {
     text += fmt::format("{}{} = {}", text.empty() ? " at " : ", ", name, to_text(slots[slot]));
@@ -49,7 +49,7 @@ std::optional<AffineForm> affine_form(const SystemSpec& spec, std::size_t equati
   if (polynomial.known && (!polynomial.constant.total || !polynomial.constant.bounded)) {
     const std::string& name = spec.states[equation].name;
     throw SpecError(fmt::format("the equation of '{}', {}, is not defined or not finite{}", name,
-                                in_quotes(program.text), place(spec, dependencies, slots)),
+                                in_quotes(program.text), location(spec, dependencies, slots)),
                     "/dynamics/equations/" + name);
   }
   if (!polynomial.known || polynomial.degree() > 1) return std::nullopt;

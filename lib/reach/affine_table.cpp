@@ -127,7 +127,7 @@ class TableBuilder {
       LimitedState& one = limited.emplace_back();
       for (const std::int32_t k : dependencies.moving) {
         const auto found = std::find(dependencies_.moving.begin(), dependencies_.moving.end(), k);
-        one.places.push_back(static_cast<std::size_t>(found - dependencies_.moving.begin()));
+        one.positions.push_back(static_cast<std::size_t>(found - dependencies_.moving.begin()));
       }
       one.last = dimension.count - 1;
       const auto rows = dynamics_.tube_rows(at(j), slots, Limits::ignored);
@@ -145,14 +145,14 @@ class TableBuilder {
 
   /// Where a state with limits is during a period, in steps from its first grid point.
   struct LimitedState {
-    std::vector<std::size_t> places;  ///< of what it depends on, among the moving states
+    std::vector<std::size_t> positions;  ///< of what it depends on, among the moving states
     std::vector<IndexForm> lower;
     std::vector<IndexForm> upper;
     std::int64_t last = 0;
 
     [[nodiscard]] bool stays(const std::vector<std::int64_t>& cell) const {
       std::vector<std::int64_t> indices;
-      for (const std::size_t place : places) indices.push_back(cell[place]);
+      for (const std::size_t position : positions) indices.push_back(cell[position]);
       return std::all_of(lower.begin(), lower.end(),
                          [&](const IndexForm& f) { return f.ceil(indices) > 0; }) &&
              std::all_of(upper.begin(), upper.end(),
@@ -296,9 +296,9 @@ class TableBuilder {
 
   [[nodiscard]] SpecError off_grid(const SampledRow& row, const std::vector<Rational>& slots,
                                    const std::vector<std::int64_t>& cell, bool spread) const {
-    std::string place;
+    std::string location;
     const auto append = [&](const std::string& name, const Rational& value) {
-      place += fmt::format("{}{} = {}", place.empty() ? "" : ", ", name, to_text(value));
+      location += fmt::format("{}{} = {}", location.empty() ? "" : ", ", name, to_text(value));
     };
     Rational value = row.lower;
     for (std::size_t j = 0; j < cell.size(); ++j) {
@@ -315,7 +315,7 @@ class TableBuilder {
         fmt::format(
             "the next value of the discrete state '{}' {}{}{}, expected {} + k * {} with an integer k",
             target.name, spread ? "can be a whole interval" : "is " + to_text(value),
-            place.empty() ? "" : " at ", place, to_text(target.first), to_text(target.step)),
+            location.empty() ? "" : " at ", location, to_text(target.first), to_text(target.step)),
         "/dynamics/equations/" + target.name);
   }
 

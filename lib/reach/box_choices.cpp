@@ -45,7 +45,7 @@ Odometer BoxChoices::odometer() const {
   return Odometer(counts);
 }
 
-std::string BoxChoices::place(const std::vector<std::int64_t>& choice) const {
+std::string BoxChoices::location(const std::vector<std::int64_t>& choice) const {
   std::string text;
   for (std::size_t v = 0; v < choice.size(); ++v) {
     text += fmt::format("{}{} = {}", text.empty() ? " near " : ", ", variables_[v].name,

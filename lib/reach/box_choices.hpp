@@ -42,7 +42,7 @@ class BoxChoices {
   }
 
   /// " near x = 1, u = 0.5", for messages; empty without variables.
-  [[nodiscard]] std::string place(const std::vector<std::int64_t>& choice) const;
+  [[nodiscard]] std::string location(const std::vector<std::int64_t>& choice) const;
 
  private:
   struct Variable {

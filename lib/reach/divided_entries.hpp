@@ -16,7 +16,7 @@ namespace coordreq {
 class DividedEntries {
  public:
   /// Where entries lie: position = first + sum of index * stride.
-  struct Places {
+  struct Positions {
     std::vector<std::int64_t> counts;   ///< of indices; choices are numbered row by row
     std::vector<std::int64_t> strides;  ///< one for each of them
     std::int64_t first = 0;
@@ -25,7 +25,7 @@ class DividedEntries {
   /// @param local numbers of the choices of this process
   /// @pre unchecked: the table, which has its final length, and `ranks`, null if there is one process,
   /// outlive this object.
-  DividedEntries(TransitionTable& table, Places places, ThreadTeam::Range local, Ranks* ranks);
+  DividedEntries(TransitionTable& table, Positions positions, ThreadTeam::Range local, Ranks* ranks);
 
   /// The entry of a local choice. @param position of the entry
   [[nodiscard]] IndexRange& at(std::int64_t choice, std::int64_t position) {
@@ -38,7 +38,7 @@ class DividedEntries {
 
  private:
   TransitionTable* table_;
-  Places places_;
+  Positions positions_;
   ThreadTeam::Range local_;
   Ranks* ranks_;
   std::vector<IndexRange> local_entries_;

@@ -44,29 +44,29 @@ class EnclosureTable {
   [[nodiscard]] const TransitionTable& table() const { return table_; }
 
   /// Says where entries lie and which choices are those of this process; null: there is one.
-  void divide(const DividedEntries::Places& places, ThreadTeam::Range local, Ranks* ranks) {
-    entries_.emplace(table_, places, local, ranks);
-    if (tube_ != nullptr) tube_entries_.emplace(*tube_, places, local, ranks);
+  void divide(const DividedEntries::Positions& positions, ThreadTeam::Range local, Ranks* ranks) {
+    entries_.emplace(table_, positions, local, ranks);
+    if (tube_ != nullptr) tube_entries_.emplace(*tube_, positions, local, ranks);
   }
 
   /// Says where the state itself is among the choices; only a tube asks for it, and not of differences.
-  void set_target(std::size_t place, std::int64_t first, std::int64_t count) {
-    target_choice_ = place;
+  void set_target(std::size_t position, std::int64_t first, std::int64_t count) {
+    target_choice_ = position;
     if (tube_ == nullptr) return;
     for (std::int64_t k = first; k < first + count; ++k) target_pieces_.push_back(pieces(target_, k));
   }
 
   /// A choice that is worked on: its number, and the position of its entry.
-  struct Place {
+  struct Entry {
     std::int64_t choice = 0;
     std::int64_t position = 0;
   };
   /// Widens the entry by an enclosure of one choice of pieces.
-  void add(const Place& place, bool first, const StateEnclosure& enclosure,
+  void add(const Entry& entry, bool first, const StateEnclosure& enclosure,
            const std::vector<std::int64_t>& choice, const std::vector<std::int64_t>& piece) {
     const StateEnclosure::Result result = enclosure.result(state_);
     const auto widen = [&](DividedEntries& entries, IndexRange next) {
-      IndexRange& range = entries.at(place.choice, place.position);
+      IndexRange& range = entries.at(entry.choice, entry.position);
       range = first ? next : merge_ranges(range, next, target_);
     };
     widen(*entries_, indices(result, enclosure, choice));
@@ -86,7 +86,7 @@ class EnclosureTable {
     const Interval& value = result.value;
     if (!std::isfinite(value.lower) || !std::isfinite(value.upper)) {
       throw SpecError(fmt::format("the next value of '{}', {}, has no bound{}", target_.name,
-                                  equation_text(state_), choices_.place(choice)),
+                                  equation_text(state_), choices_.location(choice)),
                       where());
     }
     if (target_.discrete) return index_of_point(value, choice);
@@ -129,19 +129,19 @@ class EnclosureTable {
     if (result.status == StateEnclosure::Status::undefined) {
       const std::string reason = enclosure.reason(result);
       throw SpecError(fmt::format("the equation of '{}', {}, is not defined everywhere{}{}{}", name, equation,
-                                  choices_.place(choice), reason.empty() ? "" : ": ", reason),
+                                  choices_.location(choice), reason.empty() ? "" : ": ", reason),
                       pointer);
     }
     if (result.status == StateEnclosure::Status::too_stiff) {
       throw SpecError(
           fmt::format("the equation of '{}', {}, is too stiff{}: it decays at a rate of {:.3g}, "
                       "expected one that can be followed for a period of {}",
-                      name, equation, choices_.place(choice), result.rate, to_text(spec_.dynamics.period)),
+                      name, equation, choices_.location(choice), result.rate, to_text(spec_.dynamics.period)),
           pointer);
     }
     throw SpecError(fmt::format("the solution of '{}', with the equation {}, may escape to infinity within "
                                 "one period{}, or change too fast to be followed that long",
-                                name, equation, choices_.place(choice)),
+                                name, equation, choices_.location(choice)),
                     pointer);
   }
 
@@ -153,8 +153,8 @@ class EnclosureTable {
       throw SpecError(
           fmt::format("the next value of the discrete state '{}' is in [{}, {}]{}, expected one of {} + k * "
                       "{} with an integer k",
-                      target_.name, value.lower, value.upper, choices_.place(choice), to_text(target_.first),
-                      to_text(target_.step)),
+                      target_.name, value.lower, value.upper, choices_.location(choice),
+                      to_text(target_.first), to_text(target_.step)),
           where());
     }
     const std::int64_t k = floor_to_int(index);
@@ -175,7 +175,7 @@ class EnclosureTable {
   std::optional<DividedEntries> entries_, tube_entries_;
   std::size_t state_;
   bool differences_;               ///< enclosures are of the next value less the present one
-  std::size_t target_choice_ = 0;  ///< its place among the choices, unless these are differences
+  std::size_t target_choice_ = 0;  ///< its position among the choices, unless these are differences
   std::vector<std::vector<Piece>> target_pieces_;  ///< [index][piece], exactly
 };
 
@@ -192,7 +192,7 @@ void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynami
     tables.emplace_back(spec, dependencies, abstraction, choices, state, enclosure.shifts());
   }
   const TransitionTable& layout = tables.front().table();
-  DividedEntries::Places places;
+  DividedEntries::Positions positions;
   for (const std::int32_t j : layout.states) {
     const bool is_shifted = layout.shift && at(j) == states.front();
     if (is_shifted && enclosure.shifts()) continue;
@@ -201,35 +201,35 @@ void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynami
     const std::int64_t from = only_one && !is_shifted ? *index : 0;
     const std::int64_t count = only_one || is_shifted ? 1 : dimension.count;
     for (EnclosureTable& table : tables) {
-      if (table.state() == at(j)) table.set_target(places.counts.size(), from, count);
+      if (table.state() == at(j)) table.set_target(positions.counts.size(), from, count);
     }
     choices.add_state(dimension, spec.state_slot(at(j)), count, from);
-    places.first += from * layout.state_stride[at(j)];
-    places.strides.push_back(layout.state_stride[at(j)]);
-    places.counts.push_back(count);
+    positions.first += from * layout.state_stride[at(j)];
+    positions.strides.push_back(layout.state_stride[at(j)]);
+    positions.counts.push_back(count);
   }
   for (const std::int32_t j : layout.inputs) {
     choices.add_input(abstraction.inputs[at(j)], spec.input_slot(at(j)));
-    places.strides.push_back(layout.input_stride[at(j)]);
-    places.counts.push_back(abstraction.inputs[at(j)].count());
+    positions.strides.push_back(layout.input_stride[at(j)]);
+    positions.counts.push_back(abstraction.inputs[at(j)].count());
   }
 
   std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
   const Odometer all = choices.odometer();
-  for (EnclosureTable& table : tables) table.divide(places, divided_range(ranks, all.size()), ranks);
+  for (EnclosureTable& table : tables) table.divide(positions, divided_range(ranks, all.size()), ranks);
   for_each_divided(ranks, team, all.size(), 64, [&](ThreadTeam::Range range, int worker) {
     StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
     Odometer choice = all;
     choice.seek(range.begin);
     for (std::int64_t i = range.begin; i < range.end; ++i, choice.advance()) {
-      EnclosureTable::Place place{i, places.first};
-      for (std::size_t v = 0; v < places.strides.size(); ++v)
-        place.position += choice.indices()[v] * places.strides[v];
+      EnclosureTable::Entry entry{i, positions.first};
+      for (std::size_t v = 0; v < positions.strides.size(); ++v)
+        entry.position += choice.indices()[v] * positions.strides[v];
       bool first = true;
       choices.for_each_piece(choice.indices(), mine, [&](const std::vector<std::int64_t>& piece) {
         mine.enclose();
         for (EnclosureTable& table : tables) {
-          table.add(place, first, mine, choice.indices(), piece);
+          table.add(entry, first, mine, choice.indices(), piece);
         }
         first = false;
       });

@@ -96,7 +96,7 @@ void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
   std::fill(at_.begin(), at_.end(), At::anywhere);
   std::vector<Interval> disturbance = part.disturbance;
   for (int round = 0;; ++round) {
-    place_states(bounds, upper, false);
+    set_states(bounds, upper, false);
     for (std::size_t l = 0; l < disturbances_.size(); ++l) {
       slots_[system_->disturbance_slots[disturbances_[l]]] = part.disturbance[l];
     }
@@ -124,7 +124,7 @@ void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
   part.disturbance = std::move(disturbance);
 }
 
-void FaceSlope::place_states(const MovingBounds& bounds, bool upper, bool at_start) {
+void FaceSlope::set_states(const MovingBounds& bounds, bool upper, bool at_start) {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     const std::size_t j = states_[k];
     const bool at_upper = j == state_ ? upper : at_[k] == At::upper;
@@ -183,7 +183,7 @@ bool FaceSlope::use_signs(bool upper, Part& part) {
 
 /// By intervals and by the mean value form, with the gradient over the whole step.
 Interval FaceSlope::value_at_start(const MovingBounds& bounds, bool upper) {
-  place_states(bounds, upper, true);
+  set_states(bounds, upper, true);
   const Interval natural = value_.number(slots_);
   const auto slot_of = [&](std::size_t k) {
     return k < states_.size() ? system_->state_slots[states_[k]]
@@ -202,8 +202,8 @@ Interval FaceSlope::value_at_start(const MovingBounds& bounds, bool upper) {
   return intersect(natural, by_mean).value_or(natural);
 }
 
-/// The rate of change of the extreme as the face moves. Its place is known along monotone variables; along
-/// others it is compared with the nearest point of its last place.
+/// The rate of change of the extreme as the face moves. Its position is known along monotone variables; along
+/// others it is compared with the nearest point of its last position.
 Interval FaceSlope::rate_of_change(const MovingBounds& bounds, bool upper) const {
   Interval sum{0.0, 0.0};
   for (std::size_t k = 0; k < states_.size(); ++k) {

@@ -68,7 +68,7 @@ class FaceSlope {
   };
 
   void examine(const MovingBounds& bounds, bool upper, Part& part);
-  void place_states(const MovingBounds& bounds, bool upper, bool at_start);
+  void set_states(const MovingBounds& bounds, bool upper, bool at_start);
   bool differentiate();
   bool use_signs(bool upper, Part& part);
   [[nodiscard]] Interval value_at_start(const MovingBounds& bounds, bool upper);

@@ -25,18 +25,18 @@ class TapeWriter final : private NodeWriter {
   }
 
   Index write(const Program& program) {
-    std::vector<Index> place(program.nodes.size());
+    std::vector<Index> indices(program.nodes.size());
     for (std::size_t i = 0; i < program.nodes.size(); ++i) {
       const Program::Node& node = program.nodes[i];
       if (node.op == Operator::constant) {
-        place[i] = constant(program.constants[node.a]);
+        indices[i] = constant(program.constants[node.a]);
       } else if (node.op == Operator::variable) {
-        place[i] = put(node.op, node.a);
+        indices[i] = put(node.op, node.a);
       } else {
-        place[i] = put(node.op, place[node.a], place[node.b], place[node.c]);
+        indices[i] = put(node.op, indices[node.a], indices[node.b], indices[node.c]);
       }
     }
-    return place.back();
+    return indices.back();
   }
 
   [[nodiscard]] bool is_fixed(Index i) const { return degree_[i] == 0; }

@@ -49,10 +49,10 @@ class Winder {
     find_needed();
     for (Index i = 0; i < equation_.nodes.size(); ++i) {
       for (const Use use : {kAsNumber, kInTurns}) {
-        if (copies_[use][i].needed) copies_[use][i].place = write(i, use);
+        if (copies_[use][i].needed) copies_[use][i].index = write(i, use);
       }
     }
-    result_.program = tape_.extract(copies_[kAsNumber].back().place);
+    result_.program = tape_.extract(copies_[kAsNumber].back().index);
     result_.program.text = equation_.text;
     return result_;
   }
@@ -62,7 +62,7 @@ class Winder {
   enum Use : std::uint8_t { kAsNumber, kInTurns };
   struct Copied {
     bool needed = false;
-    Index place = 0;
+    Index index = 0;
   };
   using Copy = std::vector<Copied>;
 
@@ -111,8 +111,8 @@ class Winder {
     if (node.op == Operator::variable) return write_variable(node.a, use);
     const Copy& operands = copies_[use_of_operands(node, use)];
     const std::size_t count = operand_count(node.op);
-    return tape_.apply(node.op, count > 0 ? operands[node.a].place : 0,
-                       count > 1 ? operands[node.b].place : 0, count > 2 ? operands[node.c].place : 0);
+    return tape_.apply(node.op, count > 0 ? operands[node.a].index : 0,
+                       count > 1 ? operands[node.b].index : 0, count > 2 ? operands[node.c].index : 0);
   }
 
   Index write_variable(std::uint32_t slot, Use use) {

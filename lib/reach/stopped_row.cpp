@@ -151,12 +151,12 @@ class RowMaker {
   /// @returns false if one acts on a stopped state and on another one, or its effect is not known exactly
   [[nodiscard]] bool add_disturbances(StoppedRow& row) const {
     for (std::size_t l = 0; l < disturbances_.size(); ++l) {
-      const auto place = static_cast<Eigen::Index>(l);
+      const auto index = static_cast<Eigen::Index>(l);
       const auto stopped = std::count_if(forms_.begin(), forms_.end(), [&](const auto& form) {
-        return form->disturbance(place) != 0 && stops(static_cast<std::size_t>(&form - forms_.data()));
+        return form->disturbance(index) != 0 && stops(static_cast<std::size_t>(&form - forms_.data()));
       });
       const auto all = std::count_if(forms_.begin(), forms_.end(),
-                                     [&](const auto& form) { return form->disturbance(place) != 0; });
+                                     [&](const auto& form) { return form->disturbance(index) != 0; });
       if (stopped > 0 && all > 1) return false;
       if (stopped > 0) continue;
       const DisturbanceSpec& w = spec_.disturbances[at(disturbances_[l])];
@@ -220,9 +220,9 @@ class RowMaker {
     const Rational reach = dimension(j).radius() + dimension(j).measurement_error;
     std::vector<StoppedRow::Part> parts;
     for (std::int64_t k = 0; k < dimension(j).count; ++k) {
-      const Piece place = pieces(dimension(j), k).front();
-      const Rational& high = rises ? place.upper : place.lower;
-      const Rational& low = rises ? place.lower : place.upper;
+      const Piece start = pieces(dimension(j), k).front();
+      const Rational& high = rises ? start.upper : start.lower;
+      const Rational& low = rises ? start.lower : start.upper;
       // A cell that is cut at a limit has that end, as a cell without its upper end has not.
       const bool is_cut = integrator.top() && dimension(j).point(k) + reach > *integrator.top();
       StoppedRow::Part& part = parts.emplace_back(
@@ -230,8 +230,8 @@ class RowMaker {
                            .upper = integrator.from(high, fastest),
                            .attained = !rises || is_cut || integrator.is_flat_below(high, fastest)});
       if (factor == 0) continue;
-      const Rational least = factor * std::min(place.lower, itself.from(place.lower, down));
-      const Rational most = factor * std::max(place.upper, itself.from(place.upper, up));
+      const Rational least = factor * std::min(start.lower, itself.from(start.lower, down));
+      const Rational most = factor * std::max(start.upper, itself.from(start.upper, up));
       part.slowest = std::min(least, most);
       part.fastest = std::max(least, most);
     }

@@ -86,9 +86,9 @@ class SumTable {
         const auto lower = scaled_below((phi * cell).lower);
         const auto upper = scaled_above((phi * cell).upper);
         if (!lower || !upper) return false;
-        const auto place = static_cast<std::size_t>(position + k);
-        term.lower[place] = *lower;
-        term.upper[place] = *upper;
+        const auto entry = static_cast<std::size_t>(position + k);
+        term.lower[entry] = *lower;
+        term.upper[entry] = *upper;
       }
     }
     return true;

@@ -99,8 +99,8 @@ void TableRows::read_sum(std::span<const std::int64_t> states, std::span<const s
   RowSum sum;
   sum.add(table_->base_lower.data() + base, table_->base_upper.data() + base, stride_);
   for (const TransitionTerm& term : table_->terms) {
-    const std::size_t place = row_position(term, along_, states, inputs);
-    sum.add(term.lower.data() + place, term.upper.data() + place, term.state_stride[along_]);
+    const std::size_t position = row_position(term, along_, states, inputs);
+    sum.add(term.lower.data() + position, term.upper.data() + position, term.state_stride[along_]);
   }
   const std::int64_t moved = offset << TransitionTable::kFractionBits;
   sum.add(moved, moved);

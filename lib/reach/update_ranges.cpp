@@ -174,19 +174,19 @@ Rational UpdateRanges::value_at(std::uint32_t slot, std::span<const std::int64_t
 }
 
 void UpdateRanges::fail(const RationalInterval& value, std::span<const std::int64_t> indices) const {
-  std::string place;
+  std::string location;
   for (const std::uint32_t slot : program_.variables()) {
     if (slot >= spec_.states.size() + spec_.inputs.size()) continue;  // a disturbance, of all its values
     const bool is_state = slot < spec_.states.size();
-    place += fmt::format("{}{} = {}", place.empty() ? " at " : ", ",
-                         is_state ? spec_.states[slot].name : inputs_[slot - spec_.states.size()].name,
-                         to_text(value_at(slot, indices)));
+    location += fmt::format("{}{} = {}", location.empty() ? " at " : ", ",
+                            is_state ? spec_.states[slot].name : inputs_[slot - spec_.states.size()].name,
+                            to_text(value_at(slot, indices)));
   }
   const std::string found = value.is_point() ? to_text(value.lower) : "a number that is not known exactly";
   throw SpecError(
       fmt::format(
           "the next value of the discrete state '{}' can be {}{}, expected {} + k * {} with an integer k",
-          target_.name, found, place, to_text(target_.first), to_text(target_.step)),
+          target_.name, found, location, to_text(target_.first), to_text(target_.step)),
       spec_.dynamics.pointer_of(target_.name, state_));
 }
 

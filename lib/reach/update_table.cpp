@@ -61,7 +61,7 @@ void build_update_table(const SystemSpec& spec, Abstraction& abstraction, std::s
   const ThreadTeam::Range local{local_points.begin * boxes_of_point, local_points.end * boxes_of_point};
   DividedEntries entries(table, {counts, strides}, local, ranks);
   std::optional<DividedEntries> tube_entries;
-  if (tube != nullptr) tube_entries.emplace(*tube, DividedEntries::Places{counts, strides}, local, ranks);
+  if (tube != nullptr) tube_entries.emplace(*tube, DividedEntries::Positions{counts, strides}, local, ranks);
   std::vector<std::unique_ptr<UpdateRanges>> scratch(static_cast<std::size_t>(team.size()));
   for_each_divided(ranks, team, points.size(), 1, [&](ThreadTeam::Range range, int worker) {
     std::unique_ptr<UpdateRanges>& ranges = scratch[static_cast<std::size_t>(worker)];
@@ -79,15 +79,15 @@ void build_update_table(const SystemSpec& spec, Abstraction& abstraction, std::s
       std::int64_t choice = i * boxes_of_point;
       bool is_new = true;
       do {
-        std::int64_t place = base;
+        std::int64_t position = base;
         for (std::size_t v = first_box; v < slots.size(); ++v) {
           indices[slots[v]] = box[v - first_box];
-          place += box[v - first_box] * strides[v];
+          position += box[v - first_box] * strides[v];
         }
-        entries.at(choice, place) = ranges->at(indices, is_new);
+        entries.at(choice, position) = ranges->at(indices, is_new);
         is_new = false;
         const auto present = static_cast<std::int32_t>(indices[spec.state_slot(state)]);
-        if (tube_entries) tube_entries->at(choice, place) = {present, present};
+        if (tube_entries) tube_entries->at(choice, position) = {present, present};
         ++choice;
       } while (box.advance());
     }

@@ -34,7 +34,7 @@ class RowDraw {
     for (const StateSpec& one : spec.states)
       scales_.push_back({nearest_double(one.grid.first), nearest_double(one.grid.step)});
     begin_ = below(spec.states[along].grid.count - cells() + 1);
-    for (std::size_t i = 0; i < spec.states.size(); ++i) place(i, spec.states[i].grid.count / 2);
+    for (std::size_t i = 0; i < spec.states.size(); ++i) set_state(i, spec.states[i].grid.count / 2);
     for (std::size_t i = 0; i < spec.inputs.size(); ++i)
       slots_[spec.input_slot(i)] = Interval(0, 0);  // the table does not depend on it, or it is drawn
     for (std::size_t i = 0; i < spec.disturbances.size(); ++i)
@@ -43,7 +43,7 @@ class RowDraw {
 
   /// A stretch of another row.
   Row next() {
-    for (const std::int32_t j : shape_.states) place(at(j), below(spec_.states[at(j)].grid.count));
+    for (const std::int32_t j : shape_.states) set_state(at(j), below(spec_.states[at(j)].grid.count));
     for (const std::int32_t j : shape_.inputs) {
       const std::vector<Rational>& values = spec_.inputs[at(j)].values;
       const Rational& value = values[at(below(std::ssize(values)))];
@@ -51,7 +51,7 @@ class RowDraw {
     }
     Row row;
     for (std::int64_t c = begin_; c < begin_ + cells(); ++c) {
-      place(along_, c);
+      set_state(along_, c);
       add_post(state_ == along_ ? c : 0, row);
     }
     return row;
@@ -63,7 +63,7 @@ class RowDraw {
     return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(count));
   }
 
-  void place(std::size_t i, std::int64_t index) {
+  void set_state(std::size_t i, std::int64_t index) {
     const Scale& scale = scales_[i];
     const double centre = scale.first + scale.step * static_cast<double>(index);
     const double radius = spec_.states[i].discrete ? 0 : scale.step / 2;

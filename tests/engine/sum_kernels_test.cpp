@@ -49,7 +49,7 @@ struct Dimension {
     sides.upper_profile = {whole[1].data() + offset, fraction[1].data() + offset};
   }
 
-  [[nodiscard]] std::int64_t place(std::size_t c) const {
+  [[nodiscard]] std::int64_t offset_of(std::size_t c) const {
     const std::int64_t first = (sides.lower + lower[c]) >> 32;
     const std::int64_t width = ((sides.upper + upper[c]) >> 32) - first;
     const std::int64_t at = std::min<std::int64_t>(std::max(first, -width - 1), sides.count);
@@ -68,12 +68,12 @@ TEST(SumKernels, PlacesAreThoseOfTheSumsTakenIn64Bits) {
     for (std::size_t i = 0; i < size; ++i) sides.push_back(dimensions.emplace_back(n, offset).sides);
     const int origin = *rc::gen::inRange(-100000, 100000);
     for (const InstructionSet set : sets_at_hand()) {
-      std::vector<std::int32_t> places(n + kLevelBlock);
-      sum_kernels(set).find_offsets(sides.data(), size, origin, places.data(), n);
+      std::vector<std::int32_t> offsets(n + kLevelBlock);
+      sum_kernels(set).find_offsets(sides.data(), size, origin, offsets.data(), n);
       for (std::size_t c = 0; c < n; ++c) {
         std::int64_t expected = origin;
-        for (const Dimension& dimension : dimensions) expected += dimension.place(c);
-        RC_ASSERT(places[c] == expected);
+        for (const Dimension& dimension : dimensions) expected += dimension.offset_of(c);
+        RC_ASSERT(offsets[c] == expected);
       }
     }
   }));

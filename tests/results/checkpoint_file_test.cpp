@@ -82,9 +82,9 @@ TEST_F(CheckpointFile, AListOfAnotherShapeOrTypeIsNotTaken) {
 
 TEST_F(CheckpointFile, RowsStandWhereTheyAreSaidTo) {
   const std::vector<std::uint16_t> held = {1, 2, 0, 3, 4, 0};  // two rows, and what lies between them
-  const std::vector<std::uint32_t> places = {1, 0, 1};
+  const std::vector<std::uint32_t> slots = {1, 0, 1};
   NumberRows rows = number_rows(held.data(), 3, 3, 2);
-  rows.places = places.data();
+  rows.slots = slots.data();
   CheckpointWriter writer(path(), path(), Json::object(), {});
   writer.begin("one", Json::object());
   writer.add(rows);
