@@ -22,18 +22,18 @@ struct EndCells {
   [[nodiscard]] double more_cells(const Interval& a, const Interval& b) const;
 };
 
-/// Divides a box into parts where the enclosure of what it leads to meets more cells than need be. In each
-/// round the part that decides over the end that lies farthest from all that is known to be reached is
-/// halved; parts without an enclosure come first. What ends it is the number of parts that were enclosed,
-/// each as many as its work is worth, so that the result is the same on every machine; and it is given up
-/// where that number would be far too large.
+/// Divides a box into subboxes where the enclosure of what it leads to meets more cells than need be. In each
+/// round the subbox that decides over the end that lies farthest from all that is known to be reached is
+/// halved; subboxes without an enclosure come first. What ends it is the number of subboxes that were
+/// enclosed, each as many as its work is worth, so that the result is the same on every machine; and it is
+/// given up where that number would be far too large.
 ///
 /// Scratch memory for one thread.
 class BoxDivision {
  public:
-  /// The enclosure of what a part of the box leads to: `status`, `end`, `reached` and `loosest` count.
+  /// The enclosure of what a subbox of the box leads to: `status`, `end`, `reached` and `loosest` count.
   using Enclose = std::function<const FlowEnclosure&(std::span<const Interval> box)>;
-  struct Part {
+  struct Subbox {
     std::vector<Interval> box;
     FlowEnclosure found;
     int depth = 0;  ///< how often it was halved
@@ -41,7 +41,7 @@ class BoxDivision {
 
   /// @param targets what the result has to be tight for
   /// @param steps of the grid, one a dimension of the box: where nothing else tells the widest one is halved
-  /// @param effort so many parts are enclosed at most, fewer where parts are costly
+  /// @param effort so many subboxes are enclosed at most, fewer where subboxes are costly
   BoxDivision(std::vector<EndCells> targets, std::vector<double> steps, std::int64_t effort);
 
   [[nodiscard]] std::int64_t effort() const { return effort_; }
@@ -49,46 +49,47 @@ class BoxDivision {
   /// Whether the whole meets more cells than `limit` beyond those that are known to be reached, or is none.
   [[nodiscard]] bool is_loose(const FlowEnclosure& whole, double limit) const;
 
-  /// No parts yet. @param reached from parts of the box that are not looked at again; empty: nothing is known
+  /// No subboxes yet. @param reached from subboxes of the box that are not looked at again; empty: nothing is
+  /// known
   void begin(std::vector<Interval> reached);
-  /// Work that a part costs besides: what is more than usual takes the place of other parts.
+  /// Work that a subbox costs besides: what is more than usual takes the place of other subboxes.
   /// @param steps see ValidatedFlow::extra_steps()
   void charge(std::int64_t steps);
-  /// A part with its enclosure.
+  /// A subbox with its enclosure.
   void add(std::vector<Interval> box, const FlowEnclosure& found, int depth = 0);
-  /// Whether a part has no enclosure and nothing of the effort is left.
+  /// Whether a subbox has no enclosure and nothing of the effort is left.
   [[nodiscard]] bool is_lost() const;
-  /// Halves parts for as long as it pays. @returns whether all of them have enclosures
+  /// Halves subboxes for as long as it pays. @returns whether all of them have enclosures
   bool refine(const Enclose& enclose);
 
-  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  [[nodiscard]] const std::vector<Subbox>& subboxes() const { return subboxes_; }
   /// How many were enclosed, of all boxes so far.
   [[nodiscard]] std::int64_t enclosed() const { return enclosed_; }
   /// The hull of what all of them have reached.
   [[nodiscard]] const std::vector<Interval>& reached() const { return reached_; }
 
  private:
-  bool halve(std::size_t part, const Enclose& enclose);
-  [[nodiscard]] std::size_t direction(const Part& part) const;
+  bool halve(std::size_t subbox, const Enclose& enclose);
+  [[nodiscard]] std::size_t direction(const Subbox& subbox) const;
   [[nodiscard]] std::size_t deepest_failure() const;
   [[nodiscard]] double missing(std::size_t side) const;
   [[nodiscard]] std::size_t farthest() const;
   [[nodiscard]] std::size_t owner(std::size_t side) const;
   [[nodiscard]] bool still_pays();
-  [[nodiscard]] bool has_hope(std::size_t first_parts) const;
-  [[nodiscard]] std::int64_t parts_worth() const;
+  [[nodiscard]] bool has_hope(std::size_t first_subboxes) const;
+  [[nodiscard]] std::int64_t subboxes_worth() const;
   [[nodiscard]] bool is_spent() const;
 
   std::vector<EndCells> targets_;
   std::vector<double> steps_;
-  std::int64_t effort_;  ///< the most usual parts
+  std::int64_t effort_;  ///< the most usual subboxes
 
-  std::vector<Part> parts_;
+  std::vector<Subbox> subboxes_;
   std::vector<Interval> reached_;
-  std::int64_t work_ = 0;  ///< of the parts that have been enclosed, in sub-steps along a solution
+  std::int64_t work_ = 0;  ///< of the subboxes that have been enclosed, in sub-steps along a solution
   std::int64_t enclosed_ = 0;
   std::vector<bool> given_up_;  ///< lower and upper end of every target
-  std::size_t next_check_ = 0;  ///< number of parts at which it is asked whether it still pays
+  std::size_t next_check_ = 0;  ///< number of subboxes at which it is asked whether it still pays
   double missed_ = 0.0;         ///< at the last check
 };
 

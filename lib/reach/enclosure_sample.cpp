@@ -96,9 +96,9 @@ std::int64_t EnclosureSample::enclose_next() {
     choice.push_back(std::min(index, counts_[v] - 1));
   }
   ++asked_;
-  const std::int64_t before = enclosure_.parts();
+  const std::int64_t before = enclosure_.enclosed();
   choices_.for_each_piece(choice, enclosure_, [this](const auto&) { enclosure_.enclose(); });
-  return enclosure_.parts() - before;
+  return enclosure_.enclosed() - before;
 }
 
 }  // namespace coordreq

@@ -35,7 +35,7 @@ class EnclosureSample {
   [[nodiscard]] double choices() const;
 
   /// Encloses the box of one more choice; choices lie all over the grid, the same every time.
-  /// @returns how many parts were enclosed
+  /// @returns how many subboxes were enclosed
   std::int64_t enclose_next();
   /// See StateEnclosure: of all boxes so far.
   [[nodiscard]] std::int64_t work() const { return enclosure_.work(); }

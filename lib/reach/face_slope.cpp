@@ -6,8 +6,8 @@
 namespace coordreq {
 namespace {
 
-/// The box of the disturbances is divided into at most so many parts.
-constexpr std::size_t kMostParts = 24;
+/// The box of the disturbances is divided into at most so many subboxes.
+constexpr std::size_t kMostSubboxes = 24;
 /// Each round gives at least one more variable its sign.
 constexpr int kSlopeRounds = 3;
 /// Solutions may leave the bounds by no more than this before a contradiction is found.
@@ -52,76 +52,76 @@ Interval FaceSlope::over(std::span<const Interval> box) {
 }
 
 FaceSlope::Bound FaceSlope::on_face(const MovingBounds& bounds, bool upper, double negligible) {
-  parts_.resize(1);
-  parts_.front().disturbance.clear();
+  subboxes_.resize(1);
+  subboxes_.front().disturbance.clear();
   std::vector<Interval> whole;
   for (const std::size_t l : disturbances_) whole.push_back(slots_[system_->disturbance_slots[l]]);
-  parts_.front().disturbance = whole;
-  examine(bounds, upper, parts_.front());
-  const auto less = [](const Part& a, const Part& b) {
+  subboxes_.front().disturbance = whole;
+  examine(bounds, upper, subboxes_.front());
+  const auto less = [](const Subbox& a, const Subbox& b) {
     return a.bound.start + a.bound.end < b.bound.start + b.bound.end;
   };
   // An equation that is not smooth for some disturbance may be so for others, which is of no use.
   for (;;) {
-    const auto top = std::max_element(parts_.begin(), parts_.end(), less);
-    const bool divisible = top->width > negligible && parts_.size() < kMostParts;
+    const auto top = std::max_element(subboxes_.begin(), subboxes_.end(), less);
+    const bool divisible = top->width > negligible && subboxes_.size() < kMostSubboxes;
     if (!top->bound.found || !divisible) break;
-    Part half = *top;
+    Subbox half = *top;
     const Interval range = half.disturbance[half.widest];
     const double middle = midpoint(range);
     half.disturbance[half.widest].lower = middle;
     top->disturbance[half.widest].upper = middle;
     examine(bounds, upper, *top);
     examine(bounds, upper, half);
-    parts_.push_back(std::move(half));
+    subboxes_.push_back(std::move(half));
   }
   for (std::size_t l = 0; l < whole.size(); ++l) {
     slots_[system_->disturbance_slots[disturbances_[l]]] = whole[l];
   }
-  Bound result = std::max_element(parts_.begin(), parts_.end(), less)->bound;
-  for (const Part& part : parts_) {
-    result.found = result.found && part.bound.found;
-    result.start = std::max(result.start, part.bound.start);
-    result.end = std::max(result.end, part.bound.end);
-    result.decay = std::min(result.decay, part.bound.decay);
+  Bound result = std::max_element(subboxes_.begin(), subboxes_.end(), less)->bound;
+  for (const Subbox& subbox : subboxes_) {
+    result.found = result.found && subbox.bound.found;
+    result.start = std::max(result.start, subbox.bound.start);
+    result.end = std::max(result.end, subbox.bound.end);
+    result.decay = std::min(result.decay, subbox.bound.decay);
   }
   return result;
 }
 
 /// The bound for some of the disturbances. Of the states first nothing is known but their box, so that the
 /// derivatives that are found then hold between all points of it.
-void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
-  part.bound = {};
-  part.width = 0.0;
+void FaceSlope::examine(const MovingBounds& bounds, bool upper, Subbox& subbox) {
+  subbox.bound = {};
+  subbox.width = 0.0;
   std::fill(at_.begin(), at_.end(), At::anywhere);
-  std::vector<Interval> disturbance = part.disturbance;
+  std::vector<Interval> disturbance = subbox.disturbance;
   for (int round = 0;; ++round) {
     set_states(bounds, upper, false);
     for (std::size_t l = 0; l < disturbances_.size(); ++l) {
-      slots_[system_->disturbance_slots[disturbances_[l]]] = part.disturbance[l];
+      slots_[system_->disturbance_slots[disturbances_[l]]] = subbox.disturbance[l];
     }
     if (!differentiate()) break;
-    if (round == kSlopeRounds || !use_signs(upper, part)) {
-      part.bound.found = true;
+    if (round == kSlopeRounds || !use_signs(upper, subbox)) {
+      subbox.bound.found = true;
       break;
     }
   }
-  if (part.bound.found) {
+  if (subbox.bound.found) {
     const Interval rate = rate_of_change(bounds, upper);
-    find_widest(part);
+    find_widest(subbox);
     const Interval start = value_at_start(bounds, upper);
     const double duration = bounds.duration;
-    part.bound.start = outward_end(start, upper);
-    part.bound.end =
-        outward::add_up(part.bound.start, outward_end(Interval{duration, duration} * rate, upper));
-    part.bound.least = std::min(part.bound.start, part.bound.end);
-    part.bound.spread = duration * (rate.upper - rate.lower);
+    subbox.bound.start = outward_end(start, upper);
+    subbox.bound.end =
+        outward::add_up(subbox.bound.start, outward_end(Interval{duration, duration} * rate, upper));
+    subbox.bound.least = std::min(subbox.bound.start, subbox.bound.end);
+    subbox.bound.spread = duration * (rate.upper - rate.lower);
     for (std::size_t k = 0; k < states_.size(); ++k) {
-      if (states_[k] == state_) part.bound.decay = gradient_[k].lower;
+      if (states_[k] == state_) subbox.bound.decay = gradient_[k].lower;
     }
-    part.bound.found = start.total && start.is_finite() && rate.is_finite();
+    subbox.bound.found = start.total && start.is_finite() && rate.is_finite();
   }
-  part.disturbance = std::move(disturbance);
+  subbox.disturbance = std::move(disturbance);
 }
 
 void FaceSlope::set_states(const MovingBounds& bounds, bool upper, bool at_start) {
@@ -163,7 +163,7 @@ bool FaceSlope::differentiate() {
 }
 
 /// Puts variables with a derivative of proven sign where the extreme is. @returns whether there are new ones
-bool FaceSlope::use_signs(bool upper, Part& part) {
+bool FaceSlope::use_signs(bool upper, Subbox& subbox) {
   bool any = false;
   const auto keeps_sign = [](const Interval& a) { return a.lower >= 0.0 || a.upper <= 0.0; };
   for (std::size_t k = 0; k < states_.size(); ++k) {
@@ -173,7 +173,7 @@ bool FaceSlope::use_signs(bool upper, Part& part) {
   }
   for (std::size_t l = 0; l < disturbances_.size(); ++l) {
     const Interval& gradient = gradient_[states_.size() + l];
-    Interval& range = part.disturbance[l];
+    Interval& range = subbox.disturbance[l];
     if (range.is_point() || !keeps_sign(gradient)) continue;
     range = Interval((gradient.lower >= 0.0) == upper ? range.upper : range.lower);
     any = true;
@@ -220,15 +220,15 @@ Interval FaceSlope::rate_of_change(const MovingBounds& bounds, bool upper) const
   return sum;
 }
 
-void FaceSlope::find_widest(Part& part) const {
+void FaceSlope::find_widest(Subbox& subbox) const {
   for (std::size_t l = 0; l < disturbances_.size(); ++l) {
-    const Interval& range = part.disturbance[l];
+    const Interval& range = subbox.disturbance[l];
     if (range.is_point()) continue;
     const Interval& gradient = gradient_[states_.size() + l];
     const double width = (range.upper - range.lower) * std::max(-gradient.lower, gradient.upper);
-    if (width <= part.width) continue;
-    part.width = width;
-    part.widest = l;
+    if (width <= subbox.width) continue;
+    subbox.width = width;
+    subbox.widest = l;
   }
 }
 

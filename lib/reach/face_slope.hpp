@@ -60,20 +60,20 @@ class FaceSlope {
 
  private:
   enum class At : std::uint8_t { lower, upper, anywhere };
-  struct Part {
+  struct Subbox {
     std::vector<Interval> disturbance;  ///< one for each of disturbances_
     Bound bound;
     std::size_t widest = 0;  ///< the disturbance that matters most of those without a sign
     double width = 0.0;      ///< by how much it may change the value; 0: there is none
   };
 
-  void examine(const MovingBounds& bounds, bool upper, Part& part);
+  void examine(const MovingBounds& bounds, bool upper, Subbox& subbox);
   void set_states(const MovingBounds& bounds, bool upper, bool at_start);
   bool differentiate();
-  bool use_signs(bool upper, Part& part);
+  bool use_signs(bool upper, Subbox& subbox);
   [[nodiscard]] Interval value_at_start(const MovingBounds& bounds, bool upper);
   [[nodiscard]] Interval rate_of_change(const MovingBounds& bounds, bool upper) const;
-  void find_widest(Part& part) const;
+  void find_widest(Subbox& subbox) const;
 
   const FlowSystem* system_;
   std::size_t state_;
@@ -85,7 +85,7 @@ class FaceSlope {
   std::vector<Dual> dual_;
   std::vector<Interval> gradient_;  ///< by states_, then by disturbances_
   std::vector<At> at_;              ///< of states_
-  std::vector<Part> parts_;
+  std::vector<Subbox> subboxes_;
 };
 
 }  // namespace coordreq

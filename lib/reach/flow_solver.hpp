@@ -50,7 +50,7 @@ class ValidatedFlow::Solver {
   Solver(FlowSystem system, const Interval& period);
 
   const FlowEnclosure& flow(std::span<const Interval> slots);
-  const FlowEnclosure& flow_of_part(std::span<const Interval> slots);
+  const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots);
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
   [[nodiscard]] std::int64_t extra_steps() const;
@@ -156,7 +156,7 @@ class ValidatedFlow::Solver {
   std::size_t stiffest_ = 0;
   bool gave_up_ = false;
   bool always_smooth_;         ///< no step meets a kink, a limit or a seam
-  bool is_part_ = false;       ///< the box is divided further where that pays
+  bool is_subbox_ = false;     ///< the box is divided further where that pays
   bool all_free_ = true;       ///< no state may run into a limit in this step
   bool ever_stopped_ = false;  ///< in an earlier one it might
   FlowEnclosure result_;

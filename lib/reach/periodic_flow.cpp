@@ -75,7 +75,7 @@ const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots) {
   return flow(slots, false);
 }
 
-const FlowEnclosure& PeriodicFlow::flow_of_part(std::span<const Interval> slots) {
+const FlowEnclosure& PeriodicFlow::flow_of_subbox(std::span<const Interval> slots) {
   return flow(slots, true);
 }
 
@@ -98,9 +98,10 @@ bool PeriodicFlow::keeps_apart(std::span<const Interval> box) {
   return inside && plain_.keeps_apart(box);
 }
 
-const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots, bool part) {
-  const auto enclose = [part](ValidatedFlow& flow, std::span<const Interval> boxes) -> const FlowEnclosure& {
-    return part ? flow.flow_of_part(boxes) : flow.flow(boxes);
+const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots, bool is_subbox) {
+  const auto enclose = [is_subbox](ValidatedFlow& flow,
+                                   std::span<const Interval> boxes) -> const FlowEnclosure& {
+    return is_subbox ? flow.flow_of_subbox(boxes) : flow.flow(boxes);
   };
   const FlowEnclosure& plain = enclose(plain_, slots);
   if (windings_.empty() || stays(plain)) return plain;

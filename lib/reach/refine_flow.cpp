@@ -17,18 +17,18 @@ constexpr std::size_t kMostSteps = 30000;
 constexpr std::size_t kFewSteps = 1000;
 /// Decay by more powers of e in a period cannot be followed in as many.
 constexpr double kTooStiff = 1e7;
-/// The excess of an enclosure over followed solutions that is allowed, as a part of the initial box or of the
-/// value itself.
+/// The excess of an enclosure over followed solutions that is allowed, as a fraction of the initial box or of
+/// the value itself.
 constexpr double kTight = 0.2;
 constexpr double kTightMagnitude = 1e-6;
-/// The allowed excess of a state that starts from a point, as a part of a step of the grid.
+/// The allowed excess of a state that starts from a point, as a fraction of a step of the grid.
 constexpr double kTightStep = 0.1;
-/// A part of the allowed excess below which no refinement is tried.
+/// A fraction of the allowed excess below which no refinement is tried.
 constexpr double kHardly = 0.1;
 /// A box of initial states is halved so often at most.
 constexpr int kMostSplits = 2;
-/// A part of a box that leads to more steps of the grid on its way is not followed further.
-constexpr double kWidestPart = 100.0;
+/// A subbox that leads to more steps of the grid on its way is not followed further.
+constexpr double kWidestSubbox = 100.0;
 /// Patience is at an end where a box leads to more steps of the grid than indices of cells can tell apart.
 constexpr double kAnywhere = 0x1p40;
 /// The neighbourhood of a box: the distance from its ends, relative to them.
@@ -56,23 +56,23 @@ const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots
   return result_;
 }
 
-const FlowEnclosure& ValidatedFlow::Solver::flow_of_part(std::span<const Interval> slots) {
+const FlowEnclosure& ValidatedFlow::Solver::flow_of_subbox(std::span<const Interval> slots) {
   for (std::size_t i = 0; i < n_; ++i) {
     const double start = slots[system_.state_slots[i]].width();
     allowed_excess_[i] = system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
   }
   result_.reached.clear();
-  is_part_ = true;
+  is_subbox_ = true;
   enclose(slots, 0);
-  is_part_ = false;
+  is_subbox_ = false;
   return result_;
 }
 
-/// Whether a part of a box is so wide that smaller parts are better than to go on.
+/// Whether a subbox is so wide that smaller ones are better than to go on.
 bool ValidatedFlow::Solver::is_too_wide() const {
-  if (!is_part_ || system_.steps.empty()) return false;
+  if (!is_subbox_ || system_.steps.empty()) return false;
   for (std::size_t i = 0; i < n_; ++i) {
-    if (now_[i].width() > kWidestPart * system_.steps[i]) return true;
+    if (now_[i].width() > kWidestSubbox * system_.steps[i]) return true;
   }
   return false;
 }
@@ -117,7 +117,7 @@ void ValidatedFlow::Solver::enclose(std::span<const Interval> slots, int halving
   const bool divisible = found && is_smooth() && !restarted_;
   if (divisible) {
     if (halvings > 0) enclose_halves(slots, halvings - 1);
-  } else if (!bound_by_faces(slots, found) && gave_up_ && !is_part_ &&
+  } else if (!bound_by_faces(slots, found) && gave_up_ && !is_subbox_ &&
              fastest_decay_ * period_.upper < kTooStiff) {
     begin(slots);
     if (run_steps(kMostSteps, true)) note_reached();
@@ -182,8 +182,8 @@ std::size_t ValidatedFlow::Solver::most_uncertain() const {
   for (std::size_t j = 0; j < n_; ++j) {
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const double part = sensitivity_.initial(i, j).width() * initial_[j].width();
-      sum += part / std::max(allowed_excess(i), 1e-300);
+      const double term = sensitivity_.initial(i, j).width() * initial_[j].width();
+      sum += term / std::max(allowed_excess(i), 1e-300);
     }
     if (sum <= largest) continue;
     largest = sum;

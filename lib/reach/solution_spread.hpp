@@ -13,7 +13,7 @@
 namespace coordreq {
 
 /// How far solutions from a box part from one another on their way, in double arithmetic and without limits
-/// and seams: a guess that proves nothing. It tells into which parts a box is worth dividing before any of
+/// and seams: a guess that proves nothing. It tells into which subboxes a box is worth dividing before any of
 /// them is enclosed.
 ///
 /// Scratch memory for one thread. @pre unchecked: the equations outlive it.

@@ -11,15 +11,15 @@ namespace {
 
 /// An enclosure that meets more cells than this beyond those of solutions that were followed is divided.
 constexpr double kLooseFlow = 1.5;
-/// One that meets more is divided by how solutions part, without a look at larger parts.
+/// One that meets more is divided by how solutions diverge, without a look at larger subboxes.
 constexpr double kFarFlow = 16.0;
-/// Solutions of a part are no farther from one another on their way, in steps of the grid: beyond that hardly
-/// any part has an enclosure of use.
+/// Solutions of a subbox are no farther from one another on their way, in steps of the grid: beyond that
+/// hardly any subbox has an enclosure of use.
 constexpr double kMostSpread = 8.0;
-/// A share of the effort for such parts; the rest is for where it matters.
-constexpr std::size_t kShareOfParts = 2;
-/// Sub-steps of solutions that tell such parts of one box: van der Pol's equation takes 3,000, 37,000 where
-/// it is stiff.
+/// A share of the effort for such subboxes; the rest is for where it matters.
+constexpr std::size_t kShareOfSubboxes = 2;
+/// Sub-steps of solutions that tell such subboxes of one box: van der Pol's equation takes 3,000, 37,000
+/// where it is stiff.
 constexpr std::int64_t kMostSpreadTries = 40'000;
 
 }  // namespace
@@ -42,14 +42,14 @@ const FlowEnclosure& SplitFlow::flow(std::span<const Interval> slots) {
   box_.clear();
   for (const std::uint32_t slot : state_slots_) box_.push_back(slots[slot]);
   const bool by_faces = can_use_faces();
-  if (by_faces ? divide_faces() : divide_all()) take_over(by_faces);
+  if (by_faces ? divide_faces() : divide_all()) use_hull(by_faces);
   return result_;
 }
 
-const FlowEnclosure& SplitFlow::flow_of_part(std::span<const Interval> box) {
+const FlowEnclosure& SplitFlow::flow_of_subbox(std::span<const Interval> box) {
   for (std::size_t i = 0; i < box.size(); ++i) slots_[state_slots_[i]] = box[i];
   const std::int64_t before = flow_.extra_steps();
-  const FlowEnclosure& found = flow_.flow_of_part(slots_);
+  const FlowEnclosure& found = flow_.flow_of_subbox(slots_);
   division_.charge(flow_.extra_steps() - before);
   return found;
 }
@@ -61,9 +61,9 @@ bool SplitFlow::can_use_faces() {
 }
 
 /// Halves boxes one after the other until solutions from each stay close, or there are many.
-std::vector<std::vector<Interval>> SplitFlow::close_parts(std::vector<std::vector<Interval>> boxes) {
+std::vector<std::vector<Interval>> SplitFlow::close_subboxes(std::vector<std::vector<Interval>> boxes) {
   if (!is_far_ || !spread_) return boxes;
-  const auto most = static_cast<std::size_t>(division_.effort()) / kShareOfParts;
+  const auto most = static_cast<std::size_t>(division_.effort()) / kShareOfSubboxes;
   std::deque<std::vector<Interval>> open(boxes.begin(), boxes.end());
   std::vector<std::vector<Interval>> close;
   const std::int64_t tried = spread_->tries();
@@ -84,15 +84,15 @@ std::vector<std::vector<Interval>> SplitFlow::close_parts(std::vector<std::vecto
   return close;
 }
 
-/// Encloses the parts, and halves of them where that pays. @returns whether all have enclosures
-bool SplitFlow::refine(std::vector<std::vector<Interval>> parts) {
-  for (std::vector<Interval>& part : parts) {
-    const FlowEnclosure& found = flow_of_part(part);
-    division_.add(std::move(part), found);
+/// Encloses the subboxes, and halves of them where that pays. @returns whether all have enclosures
+bool SplitFlow::refine(std::vector<std::vector<Interval>> subboxes) {
+  for (std::vector<Interval>& subbox : subboxes) {
+    const FlowEnclosure& found = flow_of_subbox(subbox);
+    division_.add(std::move(subbox), found);
     if (division_.is_lost()) return false;
   }
   return division_.refine(
-      [this](std::span<const Interval> box) -> const FlowEnclosure& { return flow_of_part(box); });
+      [this](std::span<const Interval> box) -> const FlowEnclosure& { return flow_of_subbox(box); });
 }
 
 /// @returns whether that gave an enclosure of the whole
@@ -105,37 +105,37 @@ bool SplitFlow::divide_faces() {
       faces.back()[i] = Interval(end);
     }
   }
-  return refine(close_parts(std::move(faces))) && faces_are_enough();
+  return refine(close_subboxes(std::move(faces))) && faces_are_enough();
 }
 
-/// @returns whether all parts have enclosures
+/// @returns whether all subboxes have enclosures
 bool SplitFlow::divide_all() {
   division_.begin(result_.reached);
-  std::vector<std::vector<Interval>> parts = close_parts({box_});
-  if (parts.size() == 1) {
+  std::vector<std::vector<Interval>> subboxes = close_subboxes({box_});
+  if (subboxes.size() == 1) {
     division_.add(box_, result_);
-    parts.clear();
+    subboxes.clear();
   }
-  return refine(std::move(parts));
+  return refine(std::move(subboxes));
 }
 
 /// Whether nothing from inside the box can pass what its faces lead to.
 bool SplitFlow::faces_are_enough() {
-  std::vector<Interval> tube = division_.parts().front().found.tube;
-  for (const BoxDivision::Part& part : division_.parts()) {
-    for (std::size_t i = 0; i < tube.size(); ++i) tube[i] = hull(tube[i], part.found.tube[i]);
+  std::vector<Interval> tube = division_.subboxes().front().found.tube;
+  for (const BoxDivision::Subbox& subbox : division_.subboxes()) {
+    for (std::size_t i = 0; i < tube.size(); ++i) tube[i] = hull(tube[i], subbox.found.tube[i]);
   }
   return flow_.keeps_apart(tube);
 }
 
-/// Puts the hull of all parts into the result.
-void SplitFlow::take_over(bool by_faces) {
-  FlowEnclosure all = division_.parts().front().found;
-  for (const BoxDivision::Part& part : division_.parts()) {
+/// Puts the hull of all subboxes into the result.
+void SplitFlow::use_hull(bool by_faces) {
+  FlowEnclosure all = division_.subboxes().front().found;
+  for (const BoxDivision::Subbox& subbox : division_.subboxes()) {
     for (std::size_t i = 0; i < box_.size(); ++i) {
-      all.end[i] = hull(all.end[i], part.found.end[i]);
-      all.tube[i] = hull(all.tube[i], part.found.tube[i]);
-      all.drift[i] = hull(all.drift[i], part.found.drift[i]);
+      all.end[i] = hull(all.end[i], subbox.found.end[i]);
+      all.tube[i] = hull(all.tube[i], subbox.found.tube[i]);
+      all.drift[i] = hull(all.drift[i], subbox.found.drift[i]);
     }
   }
   all.reached = division_.reached();

@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-/// Parts cost little: any cell more than points need is worth it.
+/// Subboxes cost little: any cell more than points need is worth it.
 constexpr double kLooseMap = 0.5;
 
 std::vector<double> at_slots(const std::vector<double>& values, const std::vector<std::uint32_t>& slots) {
@@ -31,16 +31,16 @@ Interval SplitMap::enclose(std::span<const Interval> slots) {
   for (const std::uint32_t slot : map_.directions()) box.push_back(slots[slot]);
   division_.begin({});
   division_.add(std::move(box), found_);
-  const auto part = [this](std::span<const Interval> some) -> const FlowEnclosure& {
-    return enclose_part(some);
+  const auto enclose = [this](std::span<const Interval> some) -> const FlowEnclosure& {
+    return enclose_subbox(some);
   };
-  if (!division_.refine(part)) return whole;
-  Interval all = division_.parts().front().found.end.front();
-  for (const BoxDivision::Part& each : division_.parts()) all = hull(all, each.found.end.front());
+  if (!division_.refine(enclose)) return whole;
+  Interval all = division_.subboxes().front().found.end.front();
+  for (const BoxDivision::Subbox& each : division_.subboxes()) all = hull(all, each.found.end.front());
   return whole.total ? intersect(all, whole).value_or(all) : all;
 }
 
-const FlowEnclosure& SplitMap::enclose_part(std::span<const Interval> box) {
+const FlowEnclosure& SplitMap::enclose_subbox(std::span<const Interval> box) {
   for (std::size_t j = 0; j < box.size(); ++j) slots_[map_.directions()[j]] = box[j];
   enclose_slots();
   return found_;

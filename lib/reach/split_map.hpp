@@ -17,19 +17,19 @@ namespace coordreq {
 class SplitMap {
  public:
   /// @param box_slots as in MapEnclosure
-  /// @param steps > 0, which parts of variables are alike, one a slot
+  /// @param steps > 0, which lengths of variables are alike, one a slot
   /// @param target what the result has to be tight for
-  /// @param effort so many parts of one box are enclosed at most; 0: none is divided
+  /// @param effort so many subboxes of a box are enclosed at most; 0: none is divided
   SplitMap(const Program& equation, std::span<const std::uint32_t> box_slots,
            const std::vector<double>& steps, const EndCells& target, std::int64_t effort);
 
   /// As MapEnclosure::enclose().
   [[nodiscard]] Interval enclose(std::span<const Interval> slots);
-  /// Boxes and parts of boxes that were enclosed so far.
-  [[nodiscard]] std::int64_t parts() const { return wholes_ + division_.enclosed(); }
+  /// Boxes and subboxes that were enclosed so far.
+  [[nodiscard]] std::int64_t enclosed() const { return wholes_ + division_.enclosed(); }
 
  private:
-  const FlowEnclosure& enclose_part(std::span<const Interval> box);
+  const FlowEnclosure& enclose_subbox(std::span<const Interval> box);
   void enclose_slots();
 
   MapEnclosure map_;

@@ -48,10 +48,10 @@ class StateEnclosure {
   /// @param state one of those of the constructor
   [[nodiscard]] Result result(std::size_t state) const;
 
-  /// Boxes and parts of boxes that were enclosed so far.
-  [[nodiscard]] std::int64_t parts() const { return map_ ? map_->parts() : flow_->parts(); }
-  /// The work of that: sub-steps of flows, parts of maps.
-  [[nodiscard]] std::int64_t work() const { return map_ ? map_->parts() : flow_->steps(); }
+  /// Boxes and subboxes that were enclosed so far.
+  [[nodiscard]] std::int64_t enclosed() const { return map_ ? map_->enclosed() : flow_->enclosed(); }
+  /// The work of that: sub-steps of flows, subboxes of maps.
+  [[nodiscard]] std::int64_t work() const { return map_ ? map_->enclosed() : flow_->steps(); }
 
   /// The reason why the equation at fault is undefined in the last enclose(); empty if not known. @pre it is
   [[nodiscard]] std::string reason(const Result& result) const;

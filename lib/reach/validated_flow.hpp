@@ -63,8 +63,8 @@ class ValidatedFlow {
   /// @param slots bounded boxes of all states, disturbances, inputs and parameters at their slots
   /// @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
-  /// flow() for a part of a box that the caller divides further where that pays: with less work.
-  [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> slots);
+  /// flow() for a subbox of one that the caller divides further where that pays: with less work.
+  [[nodiscard]] const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots);
 
   /// Whether no two solutions can meet within `box`, one interval a state: f is defined and has a Lipschitz
   /// constant on it and a little beyond, and nothing stops there. For the slots of the last flow().

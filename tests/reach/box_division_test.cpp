@@ -7,7 +7,7 @@
 namespace coordreq {
 namespace {
 
-/// x -> x^2 + w with |w| <= 0.3 times the width, defined where the part is narrower than `defined`.
+/// x -> x^2 + w with |w| <= 0.3 times the width, defined where the subbox is narrower than `defined`.
 class Parabola {
  public:
   explicit Parabola(double defined = outward::kInfinity) : defined_(defined) {}
@@ -31,8 +31,8 @@ class Parabola {
 };
 
 Interval united(const BoxDivision& division) {
-  Interval all = division.parts().front().found.end.front();
-  for (const BoxDivision::Part& part : division.parts()) all = hull(all, part.found.end.front());
+  Interval all = division.subboxes().front().found.end.front();
+  for (const BoxDivision::Subbox& subbox : division.subboxes()) all = hull(all, subbox.found.end.front());
   return all;
 }
 
@@ -48,7 +48,7 @@ Divided divide(const EndCells& target, std::int64_t effort, double defined = out
   division.begin({});
   division.add(box, f(box));
   const bool found =
-      division.refine([&](std::span<const Interval> part) -> const FlowEnclosure& { return f(part); });
+      division.refine([&](std::span<const Interval> subbox) -> const FlowEnclosure& { return f(subbox); });
   return {found, f.calls, united(division)};
 }
 
@@ -62,7 +62,7 @@ TEST(BoxDivision, EndsWhereCellsAreThoseOfWhatIsReached) {
   EXPECT_EQ(coarse.calls, 1);
 }
 
-TEST(BoxDivision, NeverEnclosesMorePartsThanTheEffort) {
+TEST(BoxDivision, NeverEnclosesMoreSubboxesThanTheEffort) {
   for (const std::int64_t effort : {1, 2, 3, 7, 20}) {
     const Divided some = divide({.step = 1e-4, .placed = false}, effort);
     EXPECT_TRUE(some.found);
@@ -73,15 +73,15 @@ TEST(BoxDivision, NeverEnclosesMorePartsThanTheEffort) {
   }
 }
 
-TEST(BoxDivision, DearPartsTakeThePlaceOfOthers) {
+TEST(BoxDivision, DearSubboxesTakeThePlaceOfOthers) {
   constexpr std::int64_t kEffort = 100;
   int usual = 0;
   for (const std::int64_t steps : {0, 1600, 16000}) {
     BoxDivision division({{.step = 1e-4, .placed = false}}, {1.0}, kEffort);
     Parabola f;
-    const auto enclose = [&](std::span<const Interval> part) -> const FlowEnclosure& {
+    const auto enclose = [&](std::span<const Interval> subbox) -> const FlowEnclosure& {
       division.charge(steps);
-      return f(part);
+      return f(subbox);
     };
     const std::vector<Interval> box{Interval{-1.0, 2.0}};
     division.begin({});
@@ -102,16 +102,16 @@ TEST(BoxDivision, IsLostWithoutEffortForWhatHasNoEnclosure) {
   EXPECT_TRUE(division.is_lost());
 }
 
-TEST(BoxDivision, PartsWithoutEnclosuresAreHalvedFirst) {
+TEST(BoxDivision, SubboxesWithoutEnclosuresAreHalvedFirst) {
   EXPECT_TRUE(divide({.step = 10.0}, 1000, 0.5).found);
-  EXPECT_FALSE(divide({.step = 10.0}, 10, 0.5).found);  // six parts are needed, and those on the way
+  EXPECT_FALSE(divide({.step = 10.0}, 10, 0.5).found);  // six subboxes are needed, and those on the way
   const Divided never = divide({.step = 10.0}, 100000, 0.0);
   EXPECT_FALSE(never.found);
   EXPECT_LT(never.calls, 100);  // the smallest of one place is tried, not all of them
 }
 
-TEST(BoxDivision, PartsThatWouldBeFarTooManyAreGivenUp) {
-  const double small = 3.0 / 1024;  // 2,048 parts, and those on the way
+TEST(BoxDivision, SubboxesThatWouldBeFarTooManyAreGivenUp) {
+  const double small = 3.0 / 1024;  // 2,048 subboxes, and those on the way
   const Divided many = divide({.step = 10.0}, 200, small);
   EXPECT_FALSE(many.found);
   EXPECT_LT(many.calls, 40);
@@ -123,11 +123,11 @@ TEST(BoxDivision, OnePlaceMayBeHardWhereAllOthersAreNot) {
   const std::vector<Interval> box{Interval{0.0, 1.0}};
   FlowEnclosure found;
   int calls = 0;
-  const auto enclose = [&](std::span<const Interval> part) -> const FlowEnclosure& {
+  const auto enclose = [&](std::span<const Interval> subbox) -> const FlowEnclosure& {
     ++calls;
-    const bool ok = part.front().lower > 0.0 || part.front().upper < 1e-9;
+    const bool ok = subbox.front().lower > 0.0 || subbox.front().upper < 1e-9;
     found = {.status = ok ? FlowEnclosure::Status::ok : FlowEnclosure::Status::blows_up};
-    found.end = {part.front()};
+    found.end = {subbox.front()};
     return found;
   };
   division.begin({});

@@ -27,12 +27,12 @@ std::vector<EnclosedGroup> groups_of(const ProblemSpec& spec) {
   return enclosed_groups(spec, table_shapes(spec));
 }
 
-/// How many parts a box takes, about.
-double parts_of_box(const ProblemSpec& spec, int boxes) {
+/// How many subboxes a box takes, about.
+double subboxes_of_box(const ProblemSpec& spec, int boxes) {
   EnclosureSample sample(spec, groups_of(spec).front());
-  std::int64_t parts = 0;
-  for (int k = 0; k < boxes; ++k) parts += sample.enclose_next();
-  return static_cast<double>(parts) / boxes;
+  std::int64_t subboxes = 0;
+  for (int k = 0; k < boxes; ++k) subboxes += sample.enclose_next();
+  return static_cast<double>(subboxes) / boxes;
 }
 
 TEST(EnclosureSample, CountsTheBoxesThatTablesNeed) {
@@ -66,17 +66,17 @@ TEST(EnclosureSample, KnowsThatTablesOfSumsNeedFewBoxes) {
   EXPECT_GE(sample.enclose_next(), 1);
 }
 
-TEST(EnclosureSample, TellsByFewBoxesHowManyPartsAllTake) {
+TEST(EnclosureSample, TellsByFewBoxesHowManySubboxesAllTake) {
   const ProblemSpec spec = spec_of(R"({"x": "y + u", "y": "2*(1 - x^2)*y - x", "z": "v"})");
-  const double few = parts_of_box(spec, 12);
-  const double all = parts_of_box(spec, 300);
+  const double few = subboxes_of_box(spec, 12);
+  const double all = subboxes_of_box(spec, 300);
   EXPECT_GT(all, 3);  // boxes are divided
   EXPECT_LT(few, 2 * all);
   EXPECT_GT(few, all / 2);
 }
 
-TEST(EnclosureSample, TakesOnePartABoxWhereNoneIsDivided) {
-  EXPECT_EQ(parts_of_box(spec_of(R"({"x": "y + u", "y": "2*(1 - x^2)*y - x", "z": "v"})", "0"), 12), 1);
+TEST(EnclosureSample, TakesOneSubboxABoxWhereNoneIsDivided) {
+  EXPECT_EQ(subboxes_of_box(spec_of(R"({"x": "y + u", "y": "2*(1 - x^2)*y - x", "z": "v"})", "0"), 12), 1);
 }
 
 }  // namespace
