@@ -8,9 +8,9 @@ namespace {
 using outward::add_up;
 using outward::multiply_up;
 
-constexpr std::uint32_t kKernelParts = 1U << 26U;
+constexpr std::uint32_t kKernelTicks = 1U << 26U;
 
-/// The part of the kernel that may be left out.
+/// The fraction of the kernel that may be left out.
 constexpr double kPrecision = 1e-17;
 
 bool is_same(const IntervalMatrix& a, const IntervalMatrix& b) {
@@ -32,19 +32,19 @@ double AffineKernel::integral(const Jacobian& jacobian, const Interval& tau, std
   find_derivatives(static_cast<Eigen::Index>(l));
   row_ = IntervalRow::Unit(system_.rows(), static_cast<Eigen::Index>(i));
   double sum = 0.0;
-  std::uint32_t left = kKernelParts;
-  std::uint32_t parts = kKernelParts;
+  std::uint32_t left = kKernelTicks;
+  std::uint32_t ticks = kKernelTicks;
   expand();
   while (left > 0) {
-    parts = std::min(parts, left);
-    const double duration = multiply_up(tau.upper, static_cast<double>(parts) / kKernelParts);
-    if (add_piece(duration, parts == 1, sum)) {
-      left -= parts;
-      parts *= 2;
-    } else if (parts == 1) {
+    ticks = std::min(ticks, left);
+    const double duration = multiply_up(tau.upper, static_cast<double>(ticks) / kKernelTicks);
+    if (add_piece(duration, ticks == 1, sum)) {
+      left -= ticks;
+      ticks *= 2;
+    } else if (ticks == 1) {
       return outward::kInfinity;
     } else {
-      parts /= 2;
+      ticks /= 2;
     }
   }
   return known = sum;

@@ -10,15 +10,15 @@ using outward::add_up;
 using outward::kInfinity;
 using outward::multiply_up;
 
-/// The period is divided into at most so many parts, and never more than into kMostSteps.
-constexpr std::uint64_t kFaceParts = std::uint64_t{1} << 40U;
-constexpr std::uint64_t kLongestFace = kFaceParts / 16;
+/// Ticks of a period: steps have a whole number of them.
+constexpr std::uint64_t kFaceTicks = std::uint64_t{1} << 40U;
+constexpr std::uint64_t kLongestFace = kFaceTicks / 16;
 /// Steps are not made shorter than this for the sake of a tighter result.
-constexpr std::uint64_t kFine = kFaceParts / 256;
+constexpr std::uint64_t kFine = kFaceTicks / 256;
 constexpr int kFaceMostTries = 3000;
 constexpr int kFacePatience = 3;
-/// The change that derivatives of unknown size may add in a period, as a part of the width of the initial
-/// box.
+/// The change that derivatives of unknown size may add in a period, as a fraction of the width of the
+/// initial box.
 constexpr double kFaceTolerance = 0.1;
 /// A state that decays by more than this within a step is bounded by where it settles.
 constexpr double kFaceStrongDecay = 1.0;
@@ -68,25 +68,25 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
   begin(slots, field, period);
   result.tube = now_;
   result.drift.assign(n_, Interval{});
-  std::uint64_t left = kFaceParts;
+  std::uint64_t left = kFaceTicks;
   // For a state that starts from a point there is no scale of precision.
   const bool any_point =
       std::any_of(now_.begin(), now_.end(), [](const Interval& a) { return a.is_point(); });
   const std::uint64_t longest = any_point ? kLongestFace / 8 : kLongestFace;
-  std::uint64_t parts = longest;
+  std::uint64_t ticks = longest;
   int successes = 0;
   for (int tries = 0; left > 0; ++tries) {
-    parts = std::min(parts, left);
-    if (settles_) parts = std::min(parts, std::max(left / 2, kFine / 16));
-    const double share = static_cast<double>(parts) / static_cast<double>(kFaceParts);
+    ticks = std::min(ticks, left);
+    if (settles_) ticks = std::min(ticks, std::max(left / 2, kFine / 16));
+    const double share = static_cast<double>(ticks) / static_cast<double>(kFaceTicks);
     ++tries_;
     if (tries == kFaceMostTries) return FlowFailure{false, worst_};
-    if (try_step(period * Interval(share), parts > kFine)) {
-      left -= parts;
+    if (try_step(period * Interval(share), ticks > kFine)) {
+      left -= ticks;
       finish_step(period * Interval(share), result);
-      if (++successes % kFacePatience == 0) parts = std::min(2 * parts, longest);
-    } else if (parts > 1) {
-      parts /= 2;
+      if (++successes % kFacePatience == 0) ticks = std::min(2 * ticks, longest);
+    } else if (ticks > 1) {
+      ticks /= 2;
       successes = 0;
     } else {
       return FlowFailure{undefined_, worst_};

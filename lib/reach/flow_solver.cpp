@@ -6,8 +6,8 @@
 namespace coordreq {
 namespace {
 
-/// The period is divided into at most so many parts; if one of them has no enclosure, nothing helps.
-constexpr std::uint32_t kParts = 1U << 20U;
+/// Ticks of a period: steps have a whole number of them. If one tick has no enclosure, nothing helps.
+constexpr std::uint32_t kTicks = 1U << 20U;
 constexpr std::size_t kMostTries = 20000;
 /// After some tries, steps that would be so many times as many as are allowed in all are not worth more.
 constexpr std::size_t kHopeTries = 24;
@@ -17,10 +17,10 @@ constexpr double kStiff = 1000.0;
 /// Longer steps are tried again after so many that went well.
 constexpr int kPatience = 3;
 /// Steps this small are taken although the sensitivity stays unbounded.
-constexpr std::uint32_t kSmallWithoutBound = kParts / 32;
-constexpr std::uint32_t kSmallWithoutRemainder = kParts / 4096;
+constexpr std::uint32_t kSmallWithoutBound = kTicks / 32;
+constexpr std::uint32_t kSmallWithoutRemainder = kTicks / 4096;
 /// Seams are passed in steps as small.
-constexpr std::uint32_t kSmallOnSeam = kParts / 64;
+constexpr std::uint32_t kSmallOnSeam = kTicks / 64;
 /// The remainder that a step may add, relative to the width of the initial box and to the magnitude.
 constexpr double kWidthTolerance = 1e-7;
 constexpr double kMagnitudeTolerance = 1e-15;
@@ -97,27 +97,27 @@ void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
 /// @param patient goes on although steps are so short that there are not enough of them
 /// @returns whether that led to the end of the period
 bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
-  std::uint32_t left = kParts;
-  std::uint32_t parts = kParts;
+  std::uint32_t left = kTicks;
+  std::uint32_t ticks = kTicks;
   int successes = 0;
   bool known_to_fail = false;
   tries_ = 0;
   while (left > 0) {
-    parts = std::min(parts, left);
+    ticks = std::min(ticks, left);
     ++tries_;
     ++all_tries_;
-    const double share = static_cast<double>(parts) / kParts;
-    const bool divisible = parts > kSmallWithoutRemainder;
+    const double share = static_cast<double>(ticks) / kTicks;
+    const bool divisible = ticks > kSmallWithoutRemainder;
     const auto failure = known_to_fail && divisible ? std::optional<FlowFailure>(FlowFailure{})
                                                     : try_step(period_ * Interval{share, share}, divisible);
     known_to_fail = false;
     if (!failure) {
-      left -= parts;
+      left -= ticks;
       if (++successes % kPatience == 0) {
-        known_to_fail = left > parts && twice_is_too_long();
-        parts *= 2;
+        known_to_fail = left > ticks && twice_is_too_long();
+        ticks *= 2;
       }
-      const bool hopeless = !patient && tries_ > kHopeTries && left / parts > kHope * most_steps;
+      const bool hopeless = !patient && tries_ > kHopeTries && left / ticks > kHope * most_steps;
       gave_up_ = left > 0 && (tries_ >= most_steps || hopeless);
       if (!hopeless) finish_step(left == 0);
       gave_up_ = gave_up_ || (left > 0 && (is_too_wide() || (patient && is_anywhere())));
@@ -125,8 +125,8 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
         fail(FlowFailure{false, fastest()});
         return false;
       }
-    } else if (parts > 1 && tries_ < kMostTries) {
-      parts /= 2;
+    } else if (ticks > 1 && tries_ < kMostTries) {
+      ticks /= 2;
       successes = 0;
     } else {
       fail(*failure);
@@ -216,7 +216,7 @@ std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& durat
 
 /// Where a right-hand side jumps by a whole period, all that is kept is the box and f over it.
 std::optional<FlowFailure> ValidatedFlow::Solver::try_step_on_seam(const Interval& duration) {
-  if (duration.upper * kParts > period_.upper * kSmallOnSeam) return FlowFailure{};
+  if (duration.upper * kTicks > period_.upper * kSmallOnSeam) return FlowFailure{};
   next_step().duration = duration;
   find_damping(duration);
   sensitivity_.lose();
@@ -255,7 +255,7 @@ bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool di
     next_step().transition = transition_.end();
     return true;
   }
-  const bool small = duration.upper * kParts <= period_.upper * kSmallWithoutBound;
+  const bool small = duration.upper * kTicks <= period_.upper * kSmallWithoutBound;
   if (divisible && !small) return false;
   sensitivity_.lose();
   return true;

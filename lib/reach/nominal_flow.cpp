@@ -6,16 +6,17 @@
 namespace coordreq {
 namespace {
 
-/// A step is divided into at most so many; crossing an event costs an error of the order of a part's square.
-constexpr std::uint32_t kNominalParts = 256;
+/// Ticks of a step, of which sub-steps have some; crossing an event costs an error of the order of a tick's
+/// square.
+constexpr std::uint32_t kNominalTicks = 256;
 /// Longer sub-steps are tried again after so many that went well.
 constexpr int kNominalPatience = 3;
 /// Relative to the magnitude: what a step's remainder may add.
 constexpr double kNominalTolerance = 1e-14;
 
-Interval part(const Interval& duration, std::uint32_t parts) {
+Interval fraction(const Interval& duration, std::uint32_t ticks) {
   return duration *
-         Interval{static_cast<double>(parts) / kNominalParts, static_cast<double>(parts) / kNominalParts};
+         Interval{static_cast<double>(ticks) / kNominalTicks, static_cast<double>(ticks) / kNominalTicks};
 }
 
 /// Whether the limit that `derivative` points out of is reached within the duration for sure.
@@ -62,17 +63,17 @@ bool NominalFlow::advance(const Interval& duration, const Choices& choices, std:
                           State& state) {
   choices_ = choices;
   field_->pin(&choices_);
-  std::uint32_t left = kNominalParts;
-  std::uint32_t parts = kNominalParts;
+  std::uint32_t left = kNominalTicks;
+  std::uint32_t ticks = kNominalTicks;
   int successes = 0;
   while (left > 0) {
-    parts = std::min(parts, left);
+    ticks = std::min(ticks, left);
     ++tries_;
-    if (try_step(part(duration, parts), parts == 1, tolerance, state)) {
-      left -= parts;
-      if (++successes % kNominalPatience == 0) parts *= 2;
-    } else if (parts > 1) {
-      parts /= 2;
+    if (try_step(fraction(duration, ticks), ticks == 1, tolerance, state)) {
+      left -= ticks;
+      if (++successes % kNominalPatience == 0) ticks *= 2;
+    } else if (ticks > 1) {
+      ticks /= 2;
       successes = 0;
     } else {
       break;
