@@ -159,22 +159,22 @@ void spread(const uint64_t* bits, Level* lanes, size_t n) {
   typedef typename Lanes<Level>::Vector Vector;
   constexpr size_t kCount = Lanes<Level>::kCount;
   constexpr size_t kBits = 8 * sizeof(Level);
-  // Lane i looks at bit i % kBits of the (i / kBits)-th part of the word.
-  Vector part{};
+  // Lane i looks at bit i % kBits of element i / kBits of the word.
+  Vector element{};
   Vector bit{};
   for (size_t i = 0; i < kCount; ++i) {
-    part[i] = static_cast<Level>(i / kBits);
+    element[i] = static_cast<Level>(i / kBits);
     bit[i] = static_cast<Level>(Level{1} << (i % kBits));
   }
   for (size_t j = 0; j < n; j += kCount) {
     typedef uint64_t Words __attribute__((vector_size(COORDREQ_VECTOR_BYTES)));
     const Words word = Words{} + (bits[j / 64] >> (j % 64));
 #if defined(__clang__)
-    const Vector parts = __builtin_shufflevector(reinterpret_cast<const Vector&>(word), part);
+    const Vector elements = __builtin_shufflevector(reinterpret_cast<const Vector&>(word), element);
 #else
-    const Vector parts = __builtin_shuffle(reinterpret_cast<const Vector&>(word), part);
+    const Vector elements = __builtin_shuffle(reinterpret_cast<const Vector&>(word), element);
 #endif
-    store<Level>(reinterpret_cast<Vector>((parts & bit) != Level{0}), lanes + j);
+    store<Level>(reinterpret_cast<Vector>((elements & bit) != Level{0}), lanes + j);
   }
 }
 

@@ -88,17 +88,17 @@ SweepOrder::SweepOrder(const RowUnits& units, const RowHull& hull, const AliveRo
     const std::size_t begin = end[f - 1];
     std::int64_t together = 0;
     for (; f < end.size() && (together == 0 || together + rows[f] <= kLeastRows); ++f) together += rows[f];
-    // A front that is large is divided into equal parts.
-    const std::int64_t parts = (together + most_rows - 1) / most_rows;
+    // A front that is large is divided into equal batches.
+    const std::int64_t batches = (together + most_rows - 1) / most_rows;
     Batch batch{all.subspan(begin, 0), 0};
-    std::int64_t done = 0, part = 1;
+    std::int64_t done = 0, number = 1;
     for (std::size_t u = begin; u < end[f - 1]; ++u) {
       batch.units = all.subspan(u - batch.units.size(), batch.units.size() + 1);
       batch.rows += alive.of_unit(first_unit + units_[u]);
-      if ((done + batch.rows) * parts < together * part && u + 1 < end[f - 1]) continue;
+      if ((done + batch.rows) * batches < together * number && u + 1 < end[f - 1]) continue;
       batches_.push_back(batch);
       done += batch.rows;
-      ++part;
+      ++number;
       batch = {all.subspan(u + 1, 0), 0};
     }
   }

@@ -151,8 +151,8 @@ class WaveBatch {
   /// Calls `work(k, worker)` for k below `count`, by all threads unless there are fewer than `few`.
   template <class Work>
   void share(std::int64_t count, std::int64_t few, const Work& work) {
-    const std::int64_t parts = kTasksOfThread * team_.size();
-    team_.for_each(count, count < few ? count : std::max<std::int64_t>(1, count / parts),
+    const std::int64_t tasks = kTasksOfThread * team_.size();
+    team_.for_each(count, count < few ? count : std::max<std::int64_t>(1, count / tasks),
                    [&](ThreadTeam::Range range, int w) {
                      for (std::int64_t k = range.begin; k < range.end; ++k) work(k, worker(w));
                    });
@@ -228,11 +228,11 @@ class WaveBatch {
   /// price that several of them may find the same minima.
   void divide(std::span<const Task> tasks) {
     const std::int64_t wanted = team_.size() == 1 ? 1 : kTasksOfThread * team_.size();
-    const std::int64_t parts = (wanted + std::ssize(tasks) - 1) / std::ssize(tasks);
+    const std::int64_t segments = (wanted + std::ssize(tasks) - 1) / std::ssize(tasks);
     pieces_.clear();
     for (Task task : tasks) {
       const std::int64_t end = task.end;
-      const std::int64_t rows = (end - task.begin + parts - 1) / parts;
+      const std::int64_t rows = (end - task.begin + segments - 1) / segments;
       for (; task.begin < end; task.begin = task.end) {
         task.end = std::min(task.begin + rows, end);
         pieces_.push_back(task);

@@ -87,7 +87,7 @@ class UpwardInterval {
     return UpwardInterval(larger(a.ends_, Pair{0.0, 0.0}));
   }
   /// The points of both; `a` if there are none.
-  [[nodiscard]] friend UpwardInterval common_part(const UpwardInterval& a, const UpwardInterval& b) {
+  [[nodiscard]] friend UpwardInterval intersection(const UpwardInterval& a, const UpwardInterval& b) {
     const UpwardInterval both(std::max(a.lower(), b.lower()), std::min(a.upper(), b.upper()));
     return both.lower() <= both.upper() ? both : a;
   }

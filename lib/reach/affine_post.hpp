@@ -48,17 +48,17 @@ struct AffinePost {
   /// Calls `visit` for every choice of one piece of each moving state of a cell.
   template <class Visit>
   void for_each_choice_of_pieces(const std::vector<std::int64_t>& cell, const Visit& visit) const {
-    std::vector<std::vector<Piece>> parts;
+    std::vector<std::vector<Piece>> pieces_of_states;
     std::vector<std::int64_t> counts;
     for (std::size_t j = 0; j < cell.size(); ++j) {
-      parts.push_back(pieces_of(static_cast<std::size_t>(moving[j]), cell[j]));
-      counts.push_back(static_cast<std::int64_t>(parts.back().size()));
+      pieces_of_states.push_back(pieces_of(static_cast<std::size_t>(moving[j]), cell[j]));
+      counts.push_back(static_cast<std::int64_t>(pieces_of_states.back().size()));
     }
     Odometer choice(counts);
     std::vector<Piece> chosen(cell.size());
     do {
       for (std::size_t j = 0; j < cell.size(); ++j) {
-        chosen[j] = parts[j][static_cast<std::size_t>(choice.indices()[j])];
+        chosen[j] = pieces_of_states[j][static_cast<std::size_t>(choice.indices()[j])];
       }
       visit(chosen);
     } while (choice.advance());

@@ -228,10 +228,10 @@ class TableBuilder {
       Rational upper = row.upper + target.measurement_error;
       bool attained = true;
       for (std::size_t j = 0; j < cell.size(); ++j) {
-        const StoppedRow::Part& part = row.parts[j][static_cast<std::size_t>(cell[j])];
-        lower += part.lower;
-        upper += part.upper;
-        attained = attained && part.attained;
+        const StoppedRow::Summand& summand = row.summands[j][static_cast<std::size_t>(cell[j])];
+        lower += summand.lower;
+        upper += summand.upper;
+        attained = attained && summand.attained;
       }
       return cells_meeting(target, spec_.abstraction.cells, lower, upper, attained);
     });
@@ -244,11 +244,11 @@ class TableBuilder {
     if (row.is_stopped) return true;
     if (!row.rate) return false;
     Rational slowest = row.rate->first, fastest = row.rate->second;
-    for (const std::vector<StoppedRow::Part>& parts : row.parts) {
+    for (const std::vector<StoppedRow::Summand>& summands : row.summands) {
       const auto by_slowest = [](const auto& a, const auto& b) { return a.slowest < b.slowest; };
       const auto by_fastest = [](const auto& a, const auto& b) { return a.fastest < b.fastest; };
-      slowest += std::min_element(parts.begin(), parts.end(), by_slowest)->slowest;
-      fastest += std::max_element(parts.begin(), parts.end(), by_fastest)->fastest;
+      slowest += std::min_element(summands.begin(), summands.end(), by_slowest)->slowest;
+      fastest += std::max_element(summands.begin(), summands.end(), by_fastest)->fastest;
     }
     return slowest >= 0 || fastest <= 0;
   }
@@ -263,11 +263,11 @@ class TableBuilder {
                                                        const std::vector<std::int64_t>& cell) const {
     Rational lower = row.lower, upper = row.upper, slowest = 0, fastest = 0;
     for (std::size_t j = 0; j < cell.size(); ++j) {
-      const StoppedRow::Part& part = row.parts[j][at(cell[j])];
-      lower += part.lower;
-      upper += part.upper;
-      slowest += part.slowest;
-      fastest += part.fastest;
+      const StoppedRow::Summand& summand = row.summands[j][at(cell[j])];
+      lower += summand.lower;
+      upper += summand.upper;
+      slowest += summand.slowest;
+      fastest += summand.fastest;
     }
     const bool has_direction =
         row.is_stopped || row.rate->first + slowest >= 0 || row.rate->second + fastest <= 0;

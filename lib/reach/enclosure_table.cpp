@@ -24,7 +24,7 @@ namespace {
 constexpr IndexRange kEverywhere{std::numeric_limits<std::int32_t>::min(),
                                  std::numeric_limits<std::int32_t>::max()};
 
-/// The part of one state: its table and maybe its tube, and what an enclosure means for them.
+/// What one state has: its table and maybe its tube, and what an enclosure means for them.
 class EnclosureTable {
  public:
   EnclosureTable(const SystemSpec& spec, const Dependencies& dependencies, Abstraction& abstraction,

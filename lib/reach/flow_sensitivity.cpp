@@ -105,7 +105,7 @@ void FlowSensitivity::append_to_turning(const UpwardMatrix& transition) {
   }
   const UpwardMatrix& turned = turning_.enclosure();
   for (Eigen::Index e = 0; e < initial_.size(); ++e)
-    initial_.data()[e] = common_part(initial_.data()[e], turned.data()[e]);
+    initial_.data()[e] = intersection(initial_.data()[e], turned.data()[e]);
 }
 
 void FlowSensitivity::lose() {

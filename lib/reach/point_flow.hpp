@@ -16,7 +16,7 @@ namespace coordreq {
 /// One solution of the differential equations of some states in double arithmetic, for simulation: accurate,
 /// with no guarantee, and independent of the validated integration that the abstraction uses.
 ///
-/// Each sub-step's estimated error is held below a part of the larger of the state and its grid step. An
+/// Each sub-step's estimated error is held below a fraction of the larger of the state and its grid step. An
 /// explicit pair takes them; where stability bounds their length StiffSolver takes over. Events end a
 /// sub-step: a state that reaches or leaves a `stop` limit or passes its seam, a switch of an equation
 /// (SwitchedEquation). Between events everything is smooth, so they are found on the interpolant of a

@@ -8,7 +8,7 @@
 namespace coordreq {
 
 inline constexpr std::int64_t kHalfStep = std::int64_t{1} << 31;
-/// Largest magnitude, in steps, of one part of a sum.
+/// Largest magnitude, in steps, of one term of a sum.
 inline constexpr double kLargestTerm = 0x1p26;
 
 /// The greatest scaled number <= steps; nothing if it is too large or no number.

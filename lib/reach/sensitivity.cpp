@@ -166,7 +166,7 @@ bool TransitionMatrix::next_magnitude(std::size_t k, double duration) {
   return halved;
 }
 
-/// Adds the part of a term to the integral. Rounded upward.
+/// Adds a term to the integral. Rounded upward.
 void TransitionMatrix::integrate_magnitude(std::size_t k) {
   const double order = number(k + 1);
   for (Eigen::Index e = 0; e < size_.size(); ++e) integral_.data()[e] += size_.data()[e] / order;

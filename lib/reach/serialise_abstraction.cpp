@@ -45,7 +45,7 @@ void serialise_entries(Archive& archive, const UniformGrid& grid, const std::opt
       "a range of indices ends before it begins");
 }
 
-/// The ends of a part of a sum.
+/// The ends of a term of a sum.
 void serialise(Archive& archive, std::vector<std::int64_t>& lower, std::vector<std::int64_t>& upper) {
   constexpr auto kMost = static_cast<std::int64_t>(kLargestTerm * 0x1p32) + 2 * kHalfStep;
   archive.list(lower);

@@ -98,14 +98,14 @@ class RowMaker {
     const auto found = std::find(moving_.begin(), moving_.end(), static_cast<std::int32_t>(state_));
     REQUIRES(found != moving_.end());
     target_ = static_cast<std::size_t>(found - moving_.begin());
-    StoppedRow row{.parts = {}, .lower = drift(), .upper = drift(), .is_stopped = stops(target_)};
+    StoppedRow row{.summands = {}, .lower = drift(), .upper = drift(), .is_stopped = stops(target_)};
     if (forms_[target_]->lower == forms_[target_]->upper && !is_moved_by_free_states())
       row.rate.emplace(rate(target_, false), rate(target_, true));
     if (!add_disturbances(row)) return std::nullopt;
     for (std::size_t j = 0; j < moving_.size(); ++j) {
-      std::optional<std::vector<StoppedRow::Part>> parts = stops(j) ? of_stopped(j) : of_free(j);
-      if (!parts) return std::nullopt;
-      row.parts.push_back(std::move(*parts));
+      std::optional<std::vector<StoppedRow::Summand>> summands = stops(j) ? of_stopped(j) : of_free(j);
+      if (!summands) return std::nullopt;
+      row.summands.push_back(std::move(*summands));
     }
     return row;
   }
@@ -181,24 +181,24 @@ class RowMaker {
     return rate;
   }
 
-  [[nodiscard]] std::optional<std::vector<StoppedRow::Part>> of_free(std::size_t j) const {
+  [[nodiscard]] std::optional<std::vector<StoppedRow::Summand>> of_free(std::size_t j) const {
     const Eigen::Index terms = flow_->rows.rows();
     const RationalVector weights = exponential_terms(spec_.dynamics.period, terms);
     Rational factor = 0;
     for (Eigen::Index k = 0; k < terms; ++k) factor += entry(k, j) * weights(k);
     const Rational reach = dimension(j).radius() + dimension(j).measurement_error;
-    std::vector<StoppedRow::Part> parts;
+    std::vector<StoppedRow::Summand> summands;
     for (std::int64_t k = 0; k < dimension(j).count; ++k) {
       const Rational middle = factor * dimension(j).point(k);
       const Rational spread = abs(factor) * reach;
-      parts.push_back({.lower = middle - spread,
-                       .upper = middle + spread,
-                       .attained = !(factor > 0) || dimension(j).discrete});
+      summands.push_back({.lower = middle - spread,
+                          .upper = middle + spread,
+                          .attained = !(factor > 0) || dimension(j).discrete});
     }
-    return parts;
+    return summands;
   }
 
-  [[nodiscard]] std::optional<std::vector<StoppedRow::Part>> of_stopped(std::size_t j) const {
+  [[nodiscard]] std::optional<std::vector<StoppedRow::Summand>> of_stopped(std::size_t j) const {
     const Rational& tau = spec_.dynamics.period;
     std::optional<Coefficients> kernel;
     bool rises = true;
@@ -218,24 +218,24 @@ class RowMaker {
     const Rational fastest = rate(j, rises);
     const Rational slowest = rate(j, !rises);
     const Rational reach = dimension(j).radius() + dimension(j).measurement_error;
-    std::vector<StoppedRow::Part> parts;
+    std::vector<StoppedRow::Summand> summands;
     for (std::int64_t k = 0; k < dimension(j).count; ++k) {
       const Piece start = pieces(dimension(j), k).front();
       const Rational& high = rises ? start.upper : start.lower;
       const Rational& low = rises ? start.lower : start.upper;
       // A cell that is cut at a limit has that end, as a cell without its upper end has not.
       const bool is_cut = integrator.top() && dimension(j).point(k) + reach > *integrator.top();
-      StoppedRow::Part& part = parts.emplace_back(
-          StoppedRow::Part{.lower = integrator.from(low, slowest),
-                           .upper = integrator.from(high, fastest),
-                           .attained = !rises || is_cut || integrator.is_flat_below(high, fastest)});
+      StoppedRow::Summand& summand = summands.emplace_back(
+          StoppedRow::Summand{.lower = integrator.from(low, slowest),
+                              .upper = integrator.from(high, fastest),
+                              .attained = !rises || is_cut || integrator.is_flat_below(high, fastest)});
       if (factor == 0) continue;
       const Rational least = factor * std::min(start.lower, itself.from(start.lower, down));
       const Rational most = factor * std::max(start.upper, itself.from(start.upper, up));
-      part.slowest = std::min(least, most);
-      part.fastest = std::max(least, most);
+      summand.slowest = std::min(least, most);
+      summand.fastest = std::max(least, most);
     }
-    return parts;
+    return summands;
   }
 
   const SystemSpec& spec_;

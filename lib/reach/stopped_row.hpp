@@ -21,18 +21,19 @@ namespace coordreq {
 /// states.
 struct StoppedRow {
   /// The range that a cell of one state adds.
-  struct Part {
+  struct Summand {
     Rational lower;
     Rational upper;
     bool attained = true;               ///< `upper`, from a cell without its upper end
     Rational slowest = 0, fastest = 0;  ///< to x_i', at any time of the period
   };
-  std::vector<std::vector<Part>> parts;  ///< [moving state][index]
+  std::vector<std::vector<Summand>> summands;  ///< [moving state][index]
   Rational lower;
   Rational upper;
   /// Whether x_i is stopped itself: it then is between its ends all the time.
   bool is_stopped = false;
-  /// What `slowest` and `fastest` of the parts lack; nothing if x_i' depends on states that are not stopped.
+  /// What `slowest` and `fastest` of the summands lack; nothing if x_i' depends on states that are not
+  /// stopped.
   std::optional<std::pair<Rational, Rational>> rate;
 };
 

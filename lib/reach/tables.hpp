@@ -44,7 +44,7 @@ namespace coordreq {
 void fill_cells_off_limits(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                            std::size_t state, ThreadTeam& team);
 
-/// Fills the part of the table of a tube that belongs to one choice of parameters and inputs.
+/// Fills the entries of the table of a tube that belong to one choice of parameters and inputs.
 /// @param rows of AffineDynamics::tube_rows()
 void fill_affine_tube(const AffinePost& post, const std::vector<SampledRow>& rows, std::int64_t base,
                       TransitionTable& tube);

@@ -70,7 +70,7 @@ COORDREQ_INLINE Balls times(Balls a, Balls b) {
   const Lanes radius = (spread + kRounding * magnitude(product) + kTiny) * kSlack;
   return {masked(product, mask), masked(radius, mask)};
 }
-COORDREQ_INLINE Balls over(Balls a, Balls b) {
+COORDREQ_INLINE Balls divided(Balls a, Balls b) {
   const Lanes least = (magnitude(b.middle) - b.radius) * (1.0 - 0x1p-48);
   const Mask bounded = least > Lanes{};
   const Lanes quotient = a.middle / b.middle;
@@ -97,18 +97,18 @@ COORDREQ_INLINE size_t larger(size_t a, size_t b) {
   return a > b ? a : b;
 }
 
-/// The series in one part of the lanes.
-struct Part {
+/// The series in one block of the lanes.
+struct LaneBlock {
   const SeriesMemory& memory;
-  size_t part;
+  size_t block;
 
   COORDREQ_INLINE Balls read(const BallLanes& from) const {
-    return {*reinterpret_cast<const Lanes*>(from.middle + part * kWidth),
-            *reinterpret_cast<const Lanes*>(from.radius + part * kWidth)};
+    return {*reinterpret_cast<const Lanes*>(from.middle + block * kWidth),
+            *reinterpret_cast<const Lanes*>(from.radius + block * kWidth)};
   }
   COORDREQ_INLINE void write(Balls value, BallLanes& to) const {
-    *reinterpret_cast<Lanes*>(to.middle + part * kWidth) = value.middle;
-    *reinterpret_cast<Lanes*>(to.radius + part * kWidth) = value.radius;
+    *reinterpret_cast<Lanes*>(to.middle + block * kWidth) = value.middle;
+    *reinterpret_cast<Lanes*>(to.radius + block * kWidth) = value.radius;
   }
   COORDREQ_INLINE Balls at(size_t node, size_t k) const {
     return read(memory.coefficients[node * memory.stride + k]);
@@ -120,7 +120,7 @@ struct Part {
     return k == 0 || moves ? at(node, k) : Balls{};
   }
   COORDREQ_INLINE size_t last(size_t node, bool moves) const {
-    return moves ? memory.last_nonzero[part * memory.tape_size + node] : 0;
+    return moves ? memory.last_nonzero[block * memory.tape_size + node] : 0;
   }
 
   /// sum of p_j q_{k-j} over first <= j <= last.
@@ -149,7 +149,7 @@ struct Part {
   Balls quotient(const SeriesNode& node, size_t k) const {
     const Balls known =
         convolution(node.q, last(node.q, node.q_moves), node.self, last(node.self, true), k, 1, k);
-    return over(minus(of(node.p, node.p_moves, k), known), at(node.q, 0));
+    return divided(minus(of(node.p, node.p_moves, k), known), at(node.q, 0));
   }
   /// k r_k = sum of j p_j q_{k-j} over j >= 1.
   Balls chain(const SeriesNode& node, size_t k) const {
@@ -158,7 +158,7 @@ struct Part {
     Balls sum{};
     for (size_t j = larger(1, k > q_last ? k - q_last : 0); j <= to; ++j)
       sum = with_term(sum, times(weighted(node.p, j), at(node.q, k - j)));
-    return over(sum, exactly(k));
+    return divided(sum, exactly(k));
   }
   /// k q_0 r_k = k p_k - sum of j r_j q_{k-j} over 1 <= j < k.
   Balls inverse_chain(const SeriesNode& node, size_t k) const {
@@ -166,13 +166,13 @@ struct Part {
     Balls sum = times(exactly(k), of(node.p, node.p_moves, k));
     for (size_t j = larger(1, k > q_last ? k - q_last : 0); j < k; ++j)
       sum = with_term(sum, negated(times(weighted(node.self, j), at(node.q, k - j))));
-    return over(sum, times(exactly(k), at(node.q, 0)));
+    return divided(sum, times(exactly(k), at(node.q, 0)));
   }
   /// r^2 = p.
   Balls root(const SeriesNode& node, size_t k) const {
     const size_t r_last = last(node.self, true);
     const Balls known = convolution(node.self, r_last, node.self, r_last, k, 1, k - 1);
-    return over(minus(of(node.p, node.p_moves, k), known), times(exactly(2), at(node.self, 0)));
+    return divided(minus(of(node.p, node.p_moves, k), known), times(exactly(2), at(node.self, 0)));
   }
   /// p r' = q r p' for a fixed exponent q: k p_0 r_k = sum of ((q + 1) j - k) p_j r_{k-j} over 1 <= j <= k.
   Balls power(const SeriesNode& node, size_t k) const {
@@ -183,7 +183,7 @@ struct Part {
       const Balls factor = minus(times(exponent, exactly(j)), exactly(k));
       sum = with_term(sum, times(times(factor, at(node.p, j)), at(node.self, k - j)));
     }
-    return over(sum, times(exactly(k), at(node.p, 0)));
+    return divided(sum, times(exactly(k), at(node.p, 0)));
   }
   /// s = p^2 + q^2: k s_0 r_k = sum of j (p_j q_{k-j} - q_j p_{k-j}) over 1 <= j <= k, less the sum of j r_j
   /// s_{k-j} over 1 <= j < k.
@@ -195,7 +195,7 @@ struct Part {
       if (j < k) term = minus(term, times(at(node.self, j), of(node.square, node.square_moves, k - j)));
       sum = with_term(sum, times(exactly(j), term));
     }
-    return over(sum, times(exactly(k), at(node.square, 0)));
+    return divided(sum, times(exactly(k), at(node.square, 0)));
   }
 
   Balls next(const SeriesNode& node, size_t k) const {
@@ -236,7 +236,7 @@ struct Part {
       const Balls value = next(node, k);
       write(value, memory.coefficients[node.self * memory.stride + k]);
       if (any(nonzero(value)))
-        memory.last_nonzero[part * memory.tape_size + node.self] = static_cast<uint32_t>(k);
+        memory.last_nonzero[block * memory.tape_size + node.self] = static_cast<uint32_t>(k);
       if (node.weighted) write(times(exactly(k), value), memory.weighted[node.self * memory.stride + k]);
     }
   }
@@ -246,23 +246,23 @@ struct Part {
       const SeriesOutput& output = memory.outputs[i];
       Balls value{};
       if (!output.held && (k == 1 || output.moves)) value = at(output.node, k - 1);
-      if (k > 1) value = over(value, exactly(k));
+      if (k > 1) value = divided(value, exactly(k));
       write(value, memory.states[i * memory.stride + k]);
     }
   }
 };
 
 void extend(const SeriesMemory& memory, size_t k) {
-  for (size_t part = 0; part * kWidth < memory.lanes; ++part) {
-    const Part lanes{memory, part};
+  for (size_t block = 0; block * kWidth < memory.lanes; ++block) {
+    const LaneBlock lanes{memory, block};
     if (k > 0) lanes.extend_nodes(k);
     lanes.extend_states(k + 1);
   }
 }
 
 void polynomial(const SeriesMemory& memory, size_t state, size_t order, const BallLanes& h, BallLanes& sum) {
-  for (size_t part = 0; part * kWidth < memory.lanes; ++part) {
-    const Part lanes{memory, part};
+  for (size_t block = 0; block * kWidth < memory.lanes; ++block) {
+    const LaneBlock lanes{memory, block};
     const Balls duration = lanes.read(h);
     Balls value{};
     for (size_t k = order; k-- > 0;) {

@@ -147,7 +147,7 @@ TEST(UpwardInterval, PartsAndHullsAreThoseOfInterval) {
     const Interval zero(0.0);
     EXPECT_TRUE(same(hull(UpwardInterval(a), UpwardInterval(b)), hull(a, b)));
     EXPECT_TRUE(same(hull_with_zero(UpwardInterval(a)), hull(a, zero)));
-    EXPECT_TRUE(same(common_part(UpwardInterval(a), UpwardInterval(b)), intersect(a, b).value_or(a)));
+    EXPECT_TRUE(same(intersection(UpwardInterval(a), UpwardInterval(b)), intersect(a, b).value_or(a)));
     EXPECT_TRUE(same(positive_part(UpwardInterval(a)), max(a, zero)));
     EXPECT_TRUE(same(negative_part(UpwardInterval(a)), min(a, zero)));
     EXPECT_TRUE(same(-UpwardInterval(a), -a));
