@@ -226,10 +226,10 @@ void BoxReader<Level>::collect_rows(bool gone) {
               [&](std::int64_t row) { return levels_->row(row); });
     return leave_different(*levels_, rows_);
   }
-  Shared& taken = shared();
+  Shared& slot = shared();
   const std::span<const IndexRange> inner(ranges_.data() + outer_, ranges_.size() - outer_);
   list_rows(engine_.grid(), outer_, inner, counter_, rows_,
-            [&](std::int64_t row) { return shared_row(taken, row); });
+            [&](std::int64_t row) { return shared_row(slot, row); });
   leave_different(*levels_, rows_);
 }
 

@@ -84,14 +84,14 @@ class PostReader {
   /// them may have a bound together that costs no more than the minimum of one.
   /// @param ids for each choice as in minimum(), one choice after the other; valid until the next take()
   void take(std::span<const std::uint32_t> ids) {
-    taken_ = ids;
+    choices_ = ids;
     if (has_bounds()) sums_->take(ids);
   }
-  /// minimum() of one of the choices taken.
+  /// minimum() of one of these choices.
   [[nodiscard]] const Level* minimum_of(std::size_t choice, LaneRange lanes, Level rest) {
     if (has_bounds()) return sums_->minimum_of(choice, lanes, rest);
     const std::size_t size = engine_.slices().size();
-    return minimum(taken_.subspan(choice * size, size)) + lanes.begin;
+    return minimum(choices_.subspan(choice * size, size)) + lanes.begin;
   }
   /// Levels that are nowhere above the minima of the choices [begin, end), in some lanes of the row; null:
   /// there is no such bound. The switch is FastPaths::choice_bounds; see SumReader.
@@ -132,7 +132,7 @@ class PostReader {
   std::optional<SumReader<Level>> sums_;        ///< reads posts if they are added up
   std::vector<BoxReader<std::uint8_t>> tubes_;  ///< [demand]
   bool bounds_several_ = fast_paths().choice_bounds;
-  std::span<const std::uint32_t> taken_;
+  std::span<const std::uint32_t> choices_;
   std::vector<Word> safe_;  ///< lanes whose tube is inside the set of some demand
   std::vector<Word> one_;   ///< lanes whose tube is inside the set of one demand
   std::vector<Level> lanes_;

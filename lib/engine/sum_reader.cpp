@@ -45,7 +45,7 @@ SumReader<Level>::SumReader(const RowEngine& engine, std::shared_ptr<SumPatches<
     sides_.push_back({.count = sides[i].count, .stride = sides[i].stride});
   }
   rows_.resize(sides.size());
-  taken_.rows.resize(sides.size());
+  choices_.rows.resize(sides.size());
   constexpr std::size_t kLanes = kLevelBlock / sizeof(std::int32_t);
   const std::size_t n = engine.all_lanes().size();
   offsets_.resize(n + kLanes);
@@ -65,19 +65,19 @@ template <class Level>
 void SumReader<Level>::take(std::span<const std::uint32_t> ids) {
   const std::size_t outer = engine_.outer(), tables = engine_.tables();
   for (std::size_t i = 0; i < sides_.size(); ++i)
-    readers_[i].read(ids.subspan(outer + i), tables, taken_.rows[i]);
-  taken_.kinds.resize(ids.size() / tables);
-  taken_.ranges.resize(taken_.kinds.size() * outer);
-  for (std::size_t k = 0; k < taken_.kinds.size(); ++k)
-    taken_.kinds[k] = lead(ids.subspan(k * tables), taken_.ranges.data() + k * outer);
+    readers_[i].read(ids.subspan(outer + i), tables, choices_.rows[i]);
+  choices_.kinds.resize(ids.size() / tables);
+  choices_.ranges.resize(choices_.kinds.size() * outer);
+  for (std::size_t k = 0; k < choices_.kinds.size(); ++k)
+    choices_.kinds[k] = lead(ids.subspan(k * tables), choices_.ranges.data() + k * outer);
 }
 
 template <class Level>
 const Level* SumReader<Level>::minimum_of(std::size_t choice, LaneRange lanes, Level rest) {
-  const IndexRange* const ranges = taken_.ranges.data() + choice * engine_.outer();
+  const IndexRange* const ranges = choices_.ranges.data() + choice * engine_.outer();
   box_.ranges.assign(ranges, ranges + engine_.outer());
-  for (std::size_t i = 0; i < sides_.size(); ++i) rows_[i] = taken_.rows[i][choice];
-  return minimum(taken_.kinds[choice], lanes, rest);
+  for (std::size_t i = 0; i < sides_.size(); ++i) rows_[i] = choices_.rows[i][choice];
+  return minimum(choices_.kinds[choice], lanes, rest);
 }
 
 /// The kind of the slices of the leading dimensions together; if it is `fixed` their ranges.
@@ -121,7 +121,7 @@ template <class Level>
 bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
   box_.widths.resize(sides_.size());
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const SumRows::Rows& rows = taken_.rows[i];
+    const SumRows::Rows& rows = choices_.rows[i];
     if (!rows.has_one_profile) return false;
     SumRows::Row both = rows[begin];
     for (std::size_t k = begin + 1; k < end; ++k) {
@@ -133,10 +133,10 @@ bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
     if (box_.widths[i] > patches_->layout().sides[i].reach) return false;
   }
   const std::size_t outer = engine_.outer();
-  const auto ranges = [&](std::size_t k) { return taken_.ranges.data() + k * outer; };
+  const auto ranges = [&](std::size_t k) { return choices_.ranges.data() + k * outer; };
   box_.ranges.assign(ranges(begin), ranges(begin) + outer);
   for (std::size_t k = begin; k < end; ++k) {
-    if (taken_.kinds[k] != Kind::fixed) return false;
+    if (choices_.kinds[k] != Kind::fixed) return false;
     for (std::size_t t = 0; t < outer; ++t)
       box_.ranges[t] = around_both(box_.ranges[t], ranges(k)[t], engine_.grid()[t]);
   }

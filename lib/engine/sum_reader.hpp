@@ -54,7 +54,7 @@ class SumReader {
   /// Takes several choices of slices for one row of cells, numbered 0, 1, ... @param ids one choice after the
   /// other
   void take(std::span<const std::uint32_t> ids);
-  /// minimum() of one of the choices taken.
+  /// minimum() of one of these choices.
   [[nodiscard]] const Level* minimum_of(std::size_t choice, LaneRange lanes, Level rest);
   /// Levels that are nowhere above the minima of the choices [begin, end): the least levels of one box a cell
   /// that holds its boxes of all these choices. Null if the choices differ much, or not by the same for all
@@ -92,7 +92,7 @@ class SumReader {
   std::vector<BoxSides> sides_;           ///< [inner dimension]
   Key box_;                         ///< leading ranges of the box being read, and its widths if it is joined
   std::vector<SumRows::Row> rows_;  ///< [inner dimension] of the box being read
-  Choices taken_;
+  Choices choices_;
   std::vector<std::int32_t> offsets_;
   std::vector<Level> result_;
   std::shared_ptr<typename SumPatches<Level>::Unit> unit_;

@@ -117,7 +117,7 @@ class WaveBatch {
     std::int64_t begin;
     std::int64_t end;
     bool is_wanted;           ///< its rows are known to be pending
-    std::uint32_t asked = 0;  ///< TileMemo::ask()
+    std::uint32_t query = 0;  ///< TileMemo::ask()
   };
   /// A tile that will be equal to another one.
   struct Copy {
@@ -173,14 +173,14 @@ class WaveBatch {
       worker.chosen.push_back({unit, begin, end, units_.rows() == 1});
       if (!memo_.is_on()) return;
       units_.go_to(unit, worker.dirty.position);
-      worker.chosen.back().asked = memo_.ask(worker.dirty.position, turn, worker.memo);
+      worker.chosen.back().query = memo_.ask(worker.dirty.position, turn, worker.memo);
       return;
     }
     if (!dirty_.is_unseen(unit)) dirty_.enter(unit, worker.dirty);
     for (RowPosition position(engine_.grid(), begin); position.row < end; position.advance(engine_.grid())) {
       if (!is_to_be_looked_at(position, unit, worker.dirty)) continue;
-      const std::uint32_t asked = memo_.ask(position, turn + position.row - begin, worker.memo);
-      worker.chosen.push_back({unit, position.row, position.row + 1, true, asked});
+      const std::uint32_t query = memo_.ask(position, turn + position.row - begin, worker.memo);
+      worker.chosen.push_back({unit, position.row, position.row + 1, true, query});
     }
     dirty_.mark_seen(unit);
   }
@@ -198,7 +198,7 @@ class WaveBatch {
     for (Worker& worker : workers_) {
       for (const Task& task : worker.chosen) {
         const std::int64_t tile = memo_.is_on() ? task.begin / memo_.rows() : 0;
-        const std::int64_t first = memo_.is_on() ? memo_.first(task.asked) : 0;
+        const std::int64_t first = memo_.is_on() ? memo_.first(task.query) : 0;
         if (first == tile) {
           tasks_.push_back(task);
         } else {

@@ -20,7 +20,7 @@ std::vector<Rational> split(std::vector<Rational>& b) {
   return right;
 }
 
-AbsoluteIntegral over(std::vector<Rational> b, const Rational& width, int depth) {
+AbsoluteIntegral integrate(std::vector<Rational> b, const Rational& width, int depth) {
   const bool none_negative = std::all_of(b.begin(), b.end(), [](const Rational& q) { return q >= 0; });
   const bool none_positive = std::all_of(b.begin(), b.end(), [](const Rational& q) { return q <= 0; });
   if (none_negative || none_positive) {
@@ -34,8 +34,8 @@ AbsoluteIntegral over(std::vector<Rational> b, const Rational& width, int depth)
     return {largest * width, false};
   }
   std::vector<Rational> right = split(b);
-  const AbsoluteIntegral first = over(std::move(b), width / 2, depth + 1);
-  const AbsoluteIntegral second = over(std::move(right), width / 2, depth + 1);
+  const AbsoluteIntegral first = integrate(std::move(b), width / 2, depth + 1);
+  const AbsoluteIntegral second = integrate(std::move(right), width / 2, depth + 1);
   return {first.value + second.value, first.exact && second.exact};
 }
 
@@ -43,7 +43,7 @@ AbsoluteIntegral over(std::vector<Rational> b, const Rational& width, int depth)
 
 AbsoluteIntegral integral_of_absolute(const std::vector<Rational>& coefficient, const Rational& end) {
   if (coefficient.empty()) return {0, true};
-  return over(to_bernstein(coefficient, end), end, 0);
+  return integrate(to_bernstein(coefficient, end), end, 0);
 }
 
 }  // namespace coordreq

@@ -91,11 +91,11 @@ double EnclosureSample::choices() const {
 std::int64_t EnclosureSample::enclose_next() {
   std::vector<std::int64_t> choice;
   for (std::size_t v = 0; v < counts_.size(); ++v) {
-    const double share = std::fmod(0.5 + static_cast<double>(asked_) * strides_[v], 1.0);
+    const double share = std::fmod(0.5 + static_cast<double>(drawn_) * strides_[v], 1.0);
     const auto index = static_cast<std::int64_t>(share * static_cast<double>(counts_[v]));
     choice.push_back(std::min(index, counts_[v] - 1));
   }
-  ++asked_;
+  ++drawn_;
   const std::int64_t before = enclosure_.enclosed();
   choices_.for_each_piece(choice, enclosure_, [this](const auto&) { enclosure_.enclose(); });
   return enclosure_.enclosed() - before;

@@ -45,7 +45,7 @@ class EnclosureSample {
   BoxChoices choices_;
   std::vector<std::int64_t> counts_;
   std::vector<double> strides_;  ///< one a variable, of a sequence that fills a cube evenly
-  std::int64_t asked_ = 0;
+  std::int64_t drawn_ = 0;
 };
 
 }  // namespace coordreq

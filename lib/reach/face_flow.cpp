@@ -114,7 +114,7 @@ bool FaceFlow::try_step(const Interval& duration, bool divisible) {
   undefined_ = false;
   if (!find_levels(duration.upper)) return false;
   for (std::size_t i = 0; i < n_; ++i) {
-    if (slopes_[i].over(box_).total) continue;
+    if (slopes_[i].on_box(box_).total) continue;
     undefined_ = true;
     worst_ = i;
     return false;
@@ -169,7 +169,7 @@ bool FaceFlow::holds(std::size_t i, bool upper, double level, double duration) {
 double FaceFlow::steepest(std::size_t i, bool upper, double from, double to) {
   const Interval whole = box_[i];
   box_[i] = upper ? Interval{from, to} : Interval{-to, -from};
-  const Interval value = slopes_[i].over(box_);
+  const Interval value = slopes_[i].on_box(box_);
   box_[i] = whole;
   const double result = outward_end(value, upper);
   return value.total && result <= outward::kLargest ? result : kInfinity;
@@ -181,13 +181,13 @@ bool FaceFlow::raise_level(std::size_t i, bool upper, double duration, int round
   const double slope = steepest(i, upper, from, low);
   if (slope > outward::kLargest) return false;
   const double inflation = 1.125 * (round > kModestRounds ? std::ldexp(1.0, round - kModestRounds) : 1.0);
-  double way = std::max(inflation * std::max(duration * slope, 0.0), 2.0 * (low - from));
-  double high = from + way;
+  double distance = std::max(inflation * std::max(duration * slope, 0.0), 2.0 * (low - from));
+  double high = from + distance;
   for (int n = 0; !holds(i, upper, high, duration); ++n) {
     if (n == kLevelTries) return false;
     low = high;
-    way *= 4.0;
-    high = from + way;
+    distance *= 4.0;
+    high = from + distance;
   }
   // A state that settles need not be followed as far as it could get without settling.
   if (high < limit(i, upper) && duration * steepest(i, upper, from, high) >= high - from) {
@@ -236,7 +236,7 @@ bool FaceFlow::find_rates(const Interval& duration) {
 Interval FaceFlow::first_rate(std::size_t i, bool upper) {
   face_ = now_;
   face_[i] = Interval(upper ? now_[i].upper : now_[i].lower);
-  const Interval value = slopes_[i].over(face_);
+  const Interval value = slopes_[i].on_box(face_);
   return Interval(std::clamp(upper ? value.upper : value.lower, -1e100, 1e100));
 }
 
@@ -309,15 +309,15 @@ Interval FaceFlow::settle(std::size_t i, bool upper, const Interval& duration) {
 
 void FaceFlow::finish_step(const Interval& duration, FlowEnclosure& result) {
   for (std::size_t i = 0; i < n_; ++i) {
-    Interval way = hull(now_[i], next_[i]);
+    Interval tube = hull(now_[i], next_[i]);
     for (const bool upper : {false, true}) {
       const Interval& rate = upper ? moving_.upper[i].rate : moving_.lower[i].rate;
       if (simple_[side(i, upper)] || rate.lower >= 0.0 || rate.upper <= 0.0) continue;
       const double farthest = moved_by(start(i, upper), duration, outward_end(rate, upper));
-      set_end(way, upper, std::max(outward_end(way, upper), farthest));
+      set_end(tube, upper, std::max(outward_end(tube, upper), farthest));
     }
-    result.tube[i] = hull(result.tube[i], field_->clipped(i, way));
-    result.drift[i] = result.drift[i] + duration * hull(slopes_[i].over(box_), Interval{});
+    result.tube[i] = hull(result.tube[i], field_->clipped(i, tube));
+    result.drift[i] = result.drift[i] + duration * hull(slopes_[i].on_box(box_), Interval{});
   }
   for (std::size_t i = 0; i < n_; ++i) now_[i] = field_->clipped(i, next_[i]);
 }

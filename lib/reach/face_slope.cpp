@@ -46,7 +46,7 @@ void FaceSlope::begin(std::span<const Interval> slots) {
   for (std::size_t s = 0; s < slots.size(); ++s) dual_[s] = Dual::constant(slots[s]);
 }
 
-Interval FaceSlope::over(std::span<const Interval> box) {
+Interval FaceSlope::on_box(std::span<const Interval> box) {
   for (const std::size_t j : states_) slots_[system_->state_slots[j]] = box[j];
   return value_.number(slots_);
 }

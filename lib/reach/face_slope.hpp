@@ -50,7 +50,7 @@ class FaceSlope {
   void begin(std::span<const Interval> slots);
 
   /// The right-hand side over a box of the states, by intervals.
-  [[nodiscard]] Interval over(std::span<const Interval> box);
+  [[nodiscard]] Interval on_box(std::span<const Interval> box);
 
   /// The largest (or least) value on the moving face where the state itself is at its upper (lower) end and
   /// the others are within their bounds, over all disturbances. Monotone variables are put at the end where

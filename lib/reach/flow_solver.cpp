@@ -274,8 +274,8 @@ void ValidatedFlow::Solver::finish_step(bool last) {
     if (field_.has_seams(i) && derivative_[i].upper > 0.0) next_[i].upper = outward::next_up(next_[i].upper);
   }
   for (std::size_t i = 0; i < n_; ++i) {
-    const bool one_way = derivative_[i].lower >= 0.0 || derivative_[i].upper <= 0.0;
-    result_.tube[i] = hull(result_.tube[i], one_way ? hull(now_[i], next_[i]) : box_[i]);
+    const bool is_monotone = derivative_[i].lower >= 0.0 || derivative_[i].upper <= 0.0;
+    result_.tube[i] = hull(result_.tube[i], is_monotone ? hull(now_[i], next_[i]) : box_[i]);
     result_.drift[i] = result_.drift[i] + duration * hull(derivative_[i], Interval{});
   }
   now_ = next_;

@@ -127,8 +127,8 @@ void Deviation::carry_on(const UpwardMatrix& transition, std::vector<Interval>& 
 void ValidatedFlow::Solver::take_solutions_along() {
   for (std::size_t s = 0; s < solution_count_ && along_count_ < along_.size(); ++s) {
     const FollowedSolution& solution = solutions_[s];
-    const bool asked_for = std::find(solution_of_.begin(), solution_of_.end(), s) != solution_of_.end();
-    if (!asked_for || solution.steps_done != step_count_) continue;
+    const bool is_used = std::find(solution_of_.begin(), solution_of_.end(), s) != solution_of_.end();
+    if (!is_used || solution.steps_done != step_count_) continue;
     Along& along = along_[along_count_++];
     along.solution = s;
     along.start.split(solution.state.value);

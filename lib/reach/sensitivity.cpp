@@ -136,10 +136,10 @@ void TransitionMatrix::add_term(std::size_t k, const UpwardInterval& duration,
   for (Eigen::Index i = 0; i < n_; ++i) {
     for (Eigen::Index j = 0; j < n_; ++j) {
       UpwardInterval& entry = term_(i, j);
-      const UpwardInterval on_the_way = hull_with_zero(entry);
-      if (damped[static_cast<std::size_t>(j)]) entry = on_the_way;
+      const UpwardInterval during = hull_with_zero(entry);
+      if (damped[static_cast<std::size_t>(j)]) entry = during;
       end_(i, j) += entry;
-      range_(i, j) += on_the_way;
+      range_(i, j) += during;
     }
   }
 }
@@ -217,11 +217,11 @@ void TransitionMatrix::apply_shift(const Interval& duration) {
   if (alpha_ > 0.0) average = std::min(average, ((kOne - decay) / exponent).upper);
   rounded_upward([&] {
     const UpwardInterval at_end(decay);
-    const UpwardInterval on_the_way = hull(UpwardInterval(1.0), at_end);
+    const UpwardInterval during = hull(UpwardInterval(1.0), at_end);
     const double weight = average * duration.upper;
     for (Eigen::Index e = 0; e < size_.size(); ++e) {
       end_.data()[e] = end_.data()[e] * at_end;
-      range_.data()[e] = range_.data()[e] * on_the_way;
+      range_.data()[e] = range_.data()[e] * during;
       // No product of 0 and infinity.
       if (integral_.data()[e] > 0.0) integral_.data()[e] *= weight;
     }

@@ -21,14 +21,14 @@ std::size_t largest_order(const FlowTape& tape) {
 
 TaylorStep::TaylorStep(const FlowTape& tape)
     : dimension_(tape.outputs.size()),
-      over_box_(tape, largest_order(tape)),
-      at_state_(tape, largest_order(tape)),
+      box_series_(tape, largest_order(tape)),
+      state_series_(tape, largest_order(tape)),
       terms_(dimension_),
       sums_(dimension_) {}
 
 void TaylorStep::begin(const VectorField& field, const Choices& choices, const std::vector<bool>& held) {
-  over_box_.start(field.values(), choices, held);
-  over_box_.add_box(field.slots(), &field.values());
+  box_series_.start(field.values(), choices, held);
+  box_series_.add_box(field.slots(), &field.values());
 }
 
 void TaylorStep::find_remainder(const Interval& duration, std::span<const double> tolerance,
@@ -38,29 +38,29 @@ void TaylorStep::find_remainder(const Interval& duration, std::span<const double
   remainder.value.resize(dimension_);
   const Ball step = to_ball(duration);
   Ball power = to_ball(1.0);
-  while (over_box_.order() < over_box_.largest_order()) {
-    over_box_.extend();
+  while (box_series_.order() < box_series_.largest_order()) {
+    box_series_.extend();
     power = power * step;
     remainder.bounded = is_bounded(power);
     if (!remainder.bounded) return;
-    if (over_box_.order() > 1 && is_narrow(tolerance, remainder.value)) {
-      remainder.order = over_box_.order();
-      for (std::size_t i = 0; i < dimension_ && over_box_.lanes() > 1; ++i)
-        sums_[i] = over_box_.polynomials(i, remainder.order, step);
+    if (box_series_.order() > 1 && is_narrow(tolerance, remainder.value)) {
+      remainder.order = box_series_.order();
+      for (std::size_t i = 0; i < dimension_ && box_series_.lanes() > 1; ++i)
+        sums_[i] = box_series_.polynomials(i, remainder.order, step);
       return;
     }
   }
 }
 
 bool TaylorStep::could_be_doubled(const Interval& duration, std::span<const double> tolerance) {
-  while (over_box_.order() < over_box_.largest_order()) over_box_.extend();
+  while (box_series_.order() < box_series_.largest_order()) box_series_.extend();
   double power = 1.0;
-  for (std::size_t k = 1; k <= over_box_.largest_order(); ++k) {
+  for (std::size_t k = 1; k <= box_series_.largest_order(); ++k) {
     power *= 2.0 * duration.lower;
     if (k == 1) continue;
     bool narrow = true;
     for (std::size_t i = 0; i < dimension_; ++i)
-      narrow = narrow && power * over_box_.coefficient(0, i, k).radius <= kHopeless * tolerance[i];
+      narrow = narrow && power * box_series_.coefficient(0, i, k).radius <= kHopeless * tolerance[i];
     if (narrow) return true;
   }
   return false;
@@ -70,7 +70,7 @@ bool TaylorStep::could_be_doubled(const Interval& duration, std::span<const doub
 bool TaylorStep::is_bounded(const Ball& power) {
   bool bounded = true;
   for (std::size_t i = 0; i < dimension_; ++i) {
-    terms_[i] = power * over_box_.coefficient(0, i, over_box_.order());
+    terms_[i] = power * box_series_.coefficient(0, i, box_series_.order());
     bounded = bounded && terms_[i].radius <= outward::kLargest;
   }
   return bounded;
@@ -95,12 +95,12 @@ void TaylorStep::advance(VectorField& field, const Interval& duration, const Cho
                          const std::vector<bool>& held, const TaylorRemainder& remainder,
                          std::span<Interval> state) {
   field.set_state(state);
-  at_state_.start(field.values(), choices, held);
-  at_state_.add_box(field.slots());
-  while (at_state_.order() + 1 < remainder.order) at_state_.extend();
+  state_series_.start(field.values(), choices, held);
+  state_series_.add_box(field.slots());
+  while (state_series_.order() + 1 < remainder.order) state_series_.extend();
   const Ball step = to_ball(duration);
   for (std::size_t i = 0; i < dimension_; ++i) {
-    const BallLanes sums = at_state_.polynomials(i, remainder.order, step);
+    const BallLanes sums = state_series_.polynomials(i, remainder.order, step);
     state[i] = to_interval({sums.middle[0], sums.radius[0]}) + remainder.value[i];
   }
 }

@@ -32,7 +32,7 @@ class TaylorStep {
   void begin(const VectorField& field, const Choices& choices, const std::vector<bool>& held);
   /// Takes along what starts from a box within it. @pre unchecked: after
   /// begin(), fewer than kMostAlong times
-  void take_along(std::span<const Interval> slots) { over_box_.add_box(slots); }
+  void take_along(std::span<const Interval> slots) { box_series_.add_box(slots); }
   /// Finds the least order whose remainder is narrower than `tolerance` for every state, if there is one.
   void find_remainder(const Interval& duration, std::span<const double> tolerance,
                       TaylorRemainder& remainder);
@@ -53,8 +53,8 @@ class TaylorStep {
   bool is_narrow(std::span<const double> tolerance, std::vector<Interval>& value) const;
 
   std::size_t dimension_;
-  TaylorSeries over_box_;  ///< in lane 0; what is taken along in the others
-  TaylorSeries at_state_;
+  TaylorSeries box_series_;  ///< in lane 0; what is taken along in the others
+  TaylorSeries state_series_;
   std::vector<Ball> terms_;      ///< of the last order over the box
   std::vector<BallLanes> sums_;  ///< the polynomials of all states at the end of the step
 };
