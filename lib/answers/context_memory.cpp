@@ -31,7 +31,7 @@ MemoryNeed context_memory(const EngineSizes& sizes, int threads) {
   need.kept += (threads - 1) * kBytesOfPostThread;
   // Unsent entries are in memory before tables are cut into rows.
   const double tubes = spec.abstraction.between_samples ? 2 : 1;
-  need.work = std::max(need.work, tubes * (sizes.untold_entries() - slices));
+  need.work = std::max(need.work, tubes * (sizes.unsent_entries() - slices));
   if (spec.abstraction.between_samples) need.kept += 2 * sizes.levels() + sizes.set();
   if (spec.controller.allow) {
     need.work += sizes.condition(*spec.controller.allow);

@@ -5,7 +5,7 @@
 
 #include "answers/countdown/delay_layers.hpp"
 #include "answers/step_codes.hpp"
-#include "engine/convert_stretch.hpp"
+#include "engine/convert_cells.hpp"
 
 namespace coordreq {
 namespace {
@@ -14,7 +14,7 @@ ResultArray membership_array(const LevelMap& map, const CellOrder& order, bool o
   return {ElementType::uint8, [&map, &order, only_top](std::uint64_t begin, std::uint64_t count, void* out) {
             map.visit([&]<class Level>(const LevelRows<Level>& levels) {
               const Level least = only_top ? LevelRows<Level>::kTop : Level{1};
-              convert_stretch(
+              convert_cells(
                   levels, order, begin, count, static_cast<std::uint8_t*>(out),
                   [least](Level level) { return static_cast<std::uint8_t>(level >= least ? 1 : 0); });
             });
@@ -25,7 +25,7 @@ template <class Integer>
 FillArray fill_collision(const LevelMap& map, const CellOrder& order) {
   return [&map, &order](std::uint64_t begin, std::uint64_t count, void* out) {
     map.visit([&]<class Level>(const LevelRows<Level>& levels) {
-      convert_stretch(levels, order, begin, count, static_cast<Integer*>(out), [](Level level) {
+      convert_cells(levels, order, begin, count, static_cast<Integer*>(out), [](Level level) {
         return level == LevelRows<Level>::kTop ? std::numeric_limits<Integer>::max()
                                                : static_cast<Integer>(level);
       });
@@ -46,7 +46,7 @@ FillArray fill_delays(const DelayLayers& layers, const LevelMap& collision_time,
     };
     const Integer top = entry(layers.top_delay());
     layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
-      convert_stretch(levels, order, begin, count, static_cast<Integer*>(out), [&](Level level) {
+      convert_cells(levels, order, begin, count, static_cast<Integer*>(out), [&](Level level) {
         return level == LevelRows<Level>::kTop ? top : entry(std::int64_t{level} - 1);
       });
     });
@@ -67,7 +67,7 @@ FillArray fill_layers(const DelayLayers& layers, const CellOrder& order) {
   return [&layers, &order](std::uint64_t begin, std::uint64_t count, void* out) {
     const auto last = static_cast<std::uint32_t>(layers.sizes.size() - 1);
     layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
-      convert_stretch(levels, order, begin, count, static_cast<std::uint32_t*>(out), [last](Level level) {
+      convert_cells(levels, order, begin, count, static_cast<std::uint32_t*>(out), [last](Level level) {
         if (level == 0) return CellLists::kNone;
         return level == LevelRows<Level>::kTop ? last : std::uint32_t{level} - 1;
       });

@@ -17,7 +17,7 @@ void share_context(AnalysisContext& context, bool is_cut,
   if (!is_cut)
     share = {*context.ranks, cut_into_shares(context.model, &*context.engine, context.ranks->count())};
   find_safe({share.local()});
-  share.set_ghosts(context.hull->rows_met(&context.safe, share.local()));
+  share.set_ghosts(context.hull->rows_reached(&context.safe, share.local()));
   find_safe(ghost_rows(share));
   context.engine->take_tube_sets();
 }
@@ -34,7 +34,7 @@ std::vector<RankRows> rows_of_ranks(const AnalysisContext& context, int ranks) {
   std::vector<RankRows> result;
   for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
     const RowShare::Range local{bounds[r], bounds[r + 1]};
-    std::vector<std::uint8_t> is_needed = hull.rows_met(nullptr, local);
+    std::vector<std::uint8_t> is_needed = hull.rows_reached(nullptr, local);
     std::fill(is_needed.begin() + local.begin, is_needed.begin() + local.end, std::uint8_t{0});
     RankRows& rows = result.emplace_back(
         RankRows{local.end - local.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});

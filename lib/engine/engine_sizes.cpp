@@ -101,7 +101,7 @@ double EngineSizes::fraction_of_table(std::size_t t) const {
   return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? fractions_.local : 1;
 }
 
-double EngineSizes::untold_entries() const {
+double EngineSizes::unsent_entries() const {
   if (fractions_.local == 1) return 0;
   // A flow encloses several states at once, a map one.
   const bool are_together = model_->spec().dynamics.time == Time::continuous;

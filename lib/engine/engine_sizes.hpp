@@ -48,7 +48,7 @@ class EngineSizes {
     return fraction_of_table(t) * model_->arranged_shapes()[t].bytes;
   }
   /// Entries of full tables that a process of several has found and not yet sent to the others.
-  [[nodiscard]] double untold_entries() const;
+  [[nodiscard]] double unsent_entries() const;
   /// RowHull, and the other lists over rows.
   [[nodiscard]] double hull() const;
   /// ConditionTable; and one for the leading indices of the rows held alone.

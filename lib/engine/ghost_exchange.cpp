@@ -17,8 +17,8 @@ RowShare::Range span_of(const UniformGrid& grid, std::span<const IndexRange> ran
 }
 
 /// From the first to the last number of the rows that posts of a unit can meet.
-RowShare::Range span_met(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows,
-                         RowShare::Range rows, RowBox& box) {
+RowShare::Range span_of_posts(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows,
+                              RowShare::Range rows, RowBox& box) {
   RowPosition position(engine.grid(), rows.begin);
   if (engine.outer() > 0) {
     hull.box(position, box);
@@ -42,23 +42,23 @@ RowShare::Range span_met(const RowEngine& engine, const RowHull& hull, std::int6
 std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, const RowHull& hull,
                                                    std::int64_t unit_rows) {
   const std::vector<RowShare::Peer>& peers = engine.share()->peers();
-  std::vector<RowShare::Range> met(peers.size());
+  std::vector<RowShare::Range> units(peers.size());
   const RowShare::Range local = engine.share()->local();
   RowBox box;
   for (std::int64_t begin = local.begin; begin < local.end;) {
     const std::int64_t unit = begin / unit_rows;
     const std::int64_t end = std::min((unit + 1) * unit_rows, local.end);
-    const RowShare::Range span = span_met(engine, hull, unit_rows, {begin, end}, box);
+    const RowShare::Range span = span_of_posts(engine, hull, unit_rows, {begin, end}, box);
     begin = end;
     if (local.begin <= span.begin && span.end <= local.end) continue;
     for (std::size_t p = 0; p < peers.size(); ++p) {
       const RowShare::Range run = engine.share()->run_of(peers[p].rank);
       if (span.end <= run.begin || run.end <= span.begin) continue;
-      if (met[p].begin == met[p].end) met[p].begin = unit;
-      met[p].end = unit + 1;
+      if (units[p].begin == units[p].end) units[p].begin = unit;
+      units[p].end = unit + 1;
     }
   }
-  return met;
+  return units;
 }
 
 ExchangeTimes find_times(const SweepOrder& order, RowShare::Range meeting, RowShare::Range sent) {

@@ -85,7 +85,7 @@ class GhostExchange {
     while (!to_send_.empty() && times(*to_send_.back()).sending <= batch) send();
   }
   /// Receives messages that have arrived, without taking them in.
-  void listen() {
+  void receive_arrived() {
     for (auto peer = to_take_.rbegin(); peer != to_take_.rend(); ++peer) {
       if ((*peer)->arrived) continue;
       if (!ranks().has_message((*peer)->share->rank)) return;
@@ -110,7 +110,7 @@ class GhostExchange {
   struct Peer {
     const RowShare::Peer* share = nullptr;
     std::array<ExchangeTimes, 2> times;  ///< in sweeps forwards and backwards
-    std::uint32_t told = 0;              ///< the last batch whose changes it was sent
+    std::uint32_t sent_batch = 0;        ///< the last batch whose changes it was sent
     std::optional<Bytes> arrived;        ///< a message that was received and not taken in
   };
 
@@ -121,9 +121,9 @@ class GhostExchange {
     Peer& peer = *to_send_.back();
     to_send_.pop_back();
     ranks().send(peer.share->rank, messages_.message(*peer.share, [&](std::int64_t row) {
-      return dirty_.has_changed_after(peer.told, row);
+      return dirty_.has_changed_after(peer.sent_batch, row);
     }));
-    peer.told = dirty_.batch();
+    peer.sent_batch = dirty_.batch();
   }
 
   template <class Visit>

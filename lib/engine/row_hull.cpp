@@ -93,7 +93,7 @@ void RowHull::box(const RowPosition& position, RowBox& box) const {
   for (std::size_t i = 0; i < engine_->tables(); ++i) box[i] = range(position, i);
 }
 
-std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range rows) const {
+std::vector<std::uint8_t> RowHull::rows_reached(const CellSet* set, RowShare::Range rows) const {
   if (rows.end - rows.begin > UINT32_MAX / (1 + std::ssize(engine_->demands())))
     return std::vector<std::uint8_t>(static_cast<std::size_t>(engine_->rows()), 1);
   BoxCount boxes(engine_->grid());
@@ -109,9 +109,10 @@ std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range 
       boxes.add(reached.ranges);
     }
   }
-  std::vector<std::uint8_t> met(static_cast<std::size_t>(engine_->rows()));
-  std::ranges::transform(boxes.spread(), met.begin(), [](std::uint32_t count) { return count > 0 ? 1 : 0; });
-  return met;
+  std::vector<std::uint8_t> rows_in_boxes(static_cast<std::size_t>(engine_->rows()));
+  std::ranges::transform(boxes.spread(), rows_in_boxes.begin(),
+                         [](std::uint32_t count) { return count > 0 ? 1 : 0; });
+  return rows_in_boxes;
 }
 
 std::uint64_t RowHull::bytes() const {

@@ -27,7 +27,7 @@ class RowHull {
 
   /// [row] not 0 for the rows that posts and tubes of cells in some rows can meet.
   /// @param set of the cells; null: all cells of the rows
-  [[nodiscard]] std::vector<std::uint8_t> rows_met(const CellSet* set, RowShare::Range rows) const;
+  [[nodiscard]] std::vector<std::uint8_t> rows_reached(const CellSet* set, RowShare::Range rows) const;
 
   [[nodiscard]] std::uint64_t bytes() const;
 

@@ -55,29 +55,29 @@ class WaveRunner {
     const bool backwards = number % 2 == 1;
     const SweepOrder& order = orders_[backwards ? 1 : 0];
     const std::int64_t alive = batch_.alive().count();
-    const auto hear_of = [this](std::int64_t row) { batch_.hear_of(row); };
+    const auto update_ghost = [this](std::int64_t row) { batch_.update_ghost(row); };
     WaveStep step{.sweep = number, .rows_left = alive, .rows = alive, .layer = layer_};
     batch_.begin_sweep();
     ghosts_.begin_sweep(number, backwards);
     std::int64_t looked_at = 0, turn = 0;
     for (std::size_t b = 0; b < order.size(); ++b) {
       step.rows_left -= order[b].rows;
-      ghosts_.before(b, hear_of);
+      ghosts_.before(b, update_ghost);
       if (const std::optional<BatchCounts> done = batch_.run(order[b].units, turn)) {
         count(*done);
         step.visited += done->visited;
         looked_at += done->visited + done->copied;
-        tell(step, share_ == nullptr);
-        ghosts_.listen();
+        report(step, share_ == nullptr);
+        ghosts_.receive_arrived();
       }
       ghosts_.after(b);
       turn += std::ssize(order[b].units) * batch_.units().rows();
     }
-    ghosts_.end_sweep(hear_of);
+    ghosts_.end_sweep(update_ghost);
     counts_.rows_skipped += alive - looked_at;
     note_final_layers();
     step.layer = layer_;
-    tell(step, true);
+    report(step, true);
     return step.visited;
   }
 
@@ -107,7 +107,7 @@ class WaveRunner {
   }
 
   /// @param is_together whether all processes are at this point now
-  void tell(WaveStep& step, bool is_together) const {
+  void report(WaveStep& step, bool is_together) const {
     if (!watch_.step) return;
     const NumberRows state = rows_of(levels_);
     step.state = {&state, is_together ? std::size_t{1} : std::size_t{0}};

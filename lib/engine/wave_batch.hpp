@@ -95,7 +95,7 @@ class WaveBatch {
   }
 
   /// A ghost row has changed.
-  void hear_of(std::int64_t row) {
+  void update_ghost(std::int64_t row) {
     dirty_.mark(row);
     if (delta_) delta_->change(row, levels_.row(row));
     if (memo_.is_on()) memo_.update(row / memo_.rows(), workers_.front().memo.key);

@@ -41,7 +41,7 @@ class RowDraw {
       slots_[spec.disturbance_slot(i)] = enclose(spec.disturbances[i].lower, spec.disturbances[i].upper);
   }
 
-  /// A stretch of another row.
+  /// A segment of another row.
   Row next() {
     for (const std::int32_t j : shape_.states) set_state(at(j), below(spec_.states[at(j)].grid.count));
     for (const std::int32_t j : shape_.inputs) {

@@ -126,7 +126,7 @@ TEST(RowHull, RowsMetAreThoseInTheBoxes) {
     }
     RC_CLASSIFY(grid.across() > 1, "more than one dimension across");
     RC_CLASSIFY(std::ranges::count(expected, 0) > 0, "not all");
-    RC_ASSERT(hull.rows_met(looked_at, rows) == expected);
+    RC_ASSERT(hull.rows_reached(looked_at, rows) == expected);
   }));
 }
 

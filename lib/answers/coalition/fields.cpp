@@ -9,7 +9,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
-#include "engine/convert_stretch.hpp"
+#include "engine/convert_cells.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -30,7 +30,7 @@ FillArray fill_coalition(const CoalitionMap& map, const Answers& answers) {
       [&map, &answers, code_of = codes<Integer>(map)](std::uint64_t begin, std::uint64_t count, void* out) {
         auto* const values = static_cast<Integer*>(out);
         map.chosen.visit([&]<class Level>(const LevelRows<Level>& levels) {
-          convert_stretch(levels, *answers.context.order, begin, count, values, [&](Level level) {
+          convert_cells(levels, *answers.context.order, begin, count, values, [&](Level level) {
             return level == LevelRows<Level>::kTop ? static_cast<Integer>(kNoPartitionSuffices)
                                                    : code_of[static_cast<std::size_t>(level)];
           });

@@ -11,7 +11,7 @@
 #include "answers/paths.hpp"
 #include "answers/step_codes.hpp"
 #include "choices/action_bits.hpp"
-#include "engine/convert_stretch.hpp"
+#include "engine/convert_cells.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -99,7 +99,7 @@ FillArray fill_arrival(const Goal& goal, const LevelMap& times, const CellOrder&
   return [&goal, &times, &order](std::uint64_t begin, std::uint64_t count, void* out) {
     auto* const steps = static_cast<Integer*>(out);
     goal.nearness.visit([&](const auto& levels) {
-      convert_stretch(levels, order, begin, count, steps, [](auto level) {
+      convert_cells(levels, order, begin, count, steps, [](auto level) {
         if (level == 0) return static_cast<Integer>(kOutsideInvariant);
         const std::int32_t arrival = arrival_of(level);
         return arrival == kUnbounded ? std::numeric_limits<Integer>::max() : static_cast<Integer>(arrival);
@@ -116,8 +116,8 @@ FillArray with_losing_cells(FillArray fill, const Goal& goal, const CellOrder& o
     fill(begin, count, out);
     std::vector<std::uint8_t> is_losing(count);
     goal.nearness.visit([&](const auto& levels) {
-      convert_stretch(levels, order, begin, count, is_losing.data(),
-                      [](auto level) { return static_cast<std::uint8_t>(level == 1 ? 1 : 0); });
+      convert_cells(levels, order, begin, count, is_losing.data(),
+                    [](auto level) { return static_cast<std::uint8_t>(level == 1 ? 1 : 0); });
     });
     for (std::uint64_t i = 0; i < count; ++i) {
       if (is_losing[i] != 0) static_cast<Integer*>(out)[i] = static_cast<Integer>(kOutsideWinning);

@@ -8,7 +8,7 @@
 #include "answers/risk/answer.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "base/grouped.hpp"
-#include "engine/convert_stretch.hpp"
+#include "engine/convert_cells.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -21,8 +21,8 @@ ResultArray risk_array(std::span<const RiskRows> risks, const CellOrder& order) 
             for (auto* target = static_cast<float*>(out); count > 0;) {
               const std::uint64_t first = begin % cells;
               const std::uint64_t here = std::min(count, cells - first);
-              convert_stretch(risks[begin / cells], order, first, here, target,
-                              [](std::uint32_t level) { return risk_of(level); });
+              convert_cells(risks[begin / cells], order, first, here, target,
+                            [](std::uint32_t level) { return risk_of(level); });
               begin += here;
               count -= here;
               target += here;

@@ -7,11 +7,11 @@
 
 namespace coordreq {
 
-/// out[i] = convert(level of cell begin + i of the spec's grid) for a stretch of `count` cells; cells that
+/// out[i] = convert(level of cell begin + i of the spec's grid) for a run of `count` cells; cells that
 /// are never lost have the greatest level of the width.
 template <class Out, class Level, class Convert>
-void convert_stretch(const LevelRows<Level>& levels, const CellOrder& order, std::uint64_t begin,
-                     std::uint64_t count, Out* out, const Convert& convert) {
+void convert_cells(const LevelRows<Level>& levels, const CellOrder& order, std::uint64_t begin,
+                   std::uint64_t count, Out* out, const Convert& convert) {
   order.for_each_run(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(count),
                      [&](const CellOrder::Run& run) {
                        Out* target = out + run.offset;
