@@ -86,7 +86,7 @@ struct ProblemSpec : SystemSpec {
   OutputSpec output;
 
   /// The goal's cells count as T.
-  [[nodiscard]] bool ends_at_goal() const { return goal_then == GoalThen::dependence; }
+  [[nodiscard]] bool ends_at_goal() const { return goal_then == GoalThen::terminal; }
   /// The goal is one to stay at or to return to, and says what agents do in it (contract, section 11).
   [[nodiscard]] bool is_goal_lasting() const {
     return goal_then == GoalThen::stay || goal_then == GoalThen::come_back;

@@ -58,7 +58,7 @@ bool contains_word(std::string text, std::string_view term) {
 
 /// @pre unchecked: the schema knows the word
 GoalThen then_of(const std::string& term) {
-  for (const GoalThen then : {GoalThen::dependence, GoalThen::stay, GoalThen::come_back}) {
+  for (const GoalThen then : {GoalThen::terminal, GoalThen::stay, GoalThen::come_back}) {
     if (term == goal_then_name(then)) return then;
   }
   return GoalThen::safe;
@@ -189,7 +189,7 @@ void check_new_name(const Node& name, const std::vector<std::string>& known, con
 
 std::string goal_then_name(GoalThen then) {
   switch (then) {
-    case GoalThen::dependence:
+    case GoalThen::terminal:
       return "over";
     case GoalThen::stay:
       return "stay";

@@ -35,7 +35,7 @@ enum class Membership : std::uint8_t { inner, center };
 enum class Synthesis : std::uint8_t { maximal, given };
 /// What follows the arrival at a goal: nothing but safety, the end of the task, staying there, or visits
 /// again and again.
-enum class GoalThen : std::uint8_t { safe, dependence, stay, come_back };
+enum class GoalThen : std::uint8_t { safe, terminal, stay, come_back };
 enum class NetworkKind : std::uint8_t { automaton, delay, burst, weakly_hard, loss };
 enum class RequirementKind : std::uint8_t {
   min_delay,
