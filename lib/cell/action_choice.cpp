@@ -143,9 +143,10 @@ void ActionChooser::for_each_choice(const Visit& visit) const {
 }
 
 std::int64_t ActionChooser::delay_after(NextStates& next, std::int64_t u) const {
-  const NextStates::Place place = next.place(u);
-  if (place.kind == Location::Kind::cell) return compared_[at(place.cell)];
-  return place.kind == Location::Kind::left_safely ? std::numeric_limits<std::int64_t>::max() : kOutsideSafe;
+  const NextStates::CellLocation location = next.location(u);
+  if (location.kind == Location::Kind::cell) return compared_[at(location.cell)];
+  return location.kind == Location::Kind::left_safely ? std::numeric_limits<std::int64_t>::max()
+                                                      : kOutsideSafe;
 }
 
 std::int64_t ActionChooser::choose_worst(NextStates& next) {

@@ -128,7 +128,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   trace.samples.back().countdown =
       schedule_->begin(trace, {options_.seed, run, RandomStream::Purpose::losses});
   while (std::ssize(trace.steps) < options_.steps && !is_at_end(trace)) {
-    const std::int64_t cell = state.place.cell;
+    const std::int64_t cell = state.location.cell;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error, cell);
     const auto& [chooser, turn] = schedule_->turn(trace);
@@ -142,7 +142,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     advance(state, *u, nature);
     add_sample(state, trace);
     trace.samples.back().countdown = schedule_->arrive(trace);
-    if (state.place.kind == Kind::left_safely)
+    if (state.location.kind == Kind::left_safely)
       return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::left_safely);
     if (const std::optional<Outcome> fault = schedule_->fault(trace)) return end(*fault);
   }
@@ -151,7 +151,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
 
 /// @pre it has left through `goal` or `safe` sides alone
 bool ClosedLoop::is_beyond_goal_side(const State& state) const {
-  REQUIRES(state.place.kind == Kind::left_safely);
+  REQUIRES(state.location.kind == Kind::left_safely);
   const UniformGrid& grid = problem_.abstraction->grid;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Rational upper = grid[i].point(grid[i].count - 1) + grid[i].radius();
@@ -190,13 +190,13 @@ ClosedLoop::State ClosedLoop::first_state(std::vector<Rational> measured, const 
     state.exact.push_back(value);
   }
   const Location location = locate(problem_.abstraction->grid, measured);
-  state.place = {.kind = location.kind, .cell = location.cell};
+  state.location = {.kind = location.kind, .cell = location.cell};
   state.measured = std::move(measured);
   return state;
 }
 
 void ClosedLoop::advance(State& state, std::int64_t u, const Nature& nature) {
-  state.place = next_.place(u);
+  state.location = next_.location(u);
   for (std::size_t i = 0; i < state.exact.size(); ++i) {
     const NextStates::Value& value = next_.state(i, u);
     if (!value.known) continue;  // the trace keeps the last value that was known
@@ -211,10 +211,10 @@ void ClosedLoop::add_sample(const State& state, RunTrace& trace) {
   RunTrace::Sample& sample =
       trace.samples.emplace_back(RunTrace::Sample{.state = nearest_doubles(state.exact),
                                                   .measured = nearest_doubles(state.measured),
-                                                  .cell = state.place.cell});
+                                                  .cell = state.location.cell});
   for (std::size_t i = 0; i < state.exact.size(); ++i) slots_[problem_.spec->state_slot(i)] = state.exact[i];
   sample.margin = margin_.value(slots_);
-  const bool is_cell = state.place.kind == Kind::cell, has_left = state.place.kind == Kind::left_safely;
+  const bool is_cell = state.location.kind == Kind::cell, has_left = state.location.kind == Kind::left_safely;
   const bool is_beyond_goal = has_left && is_beyond_goal_side(state);
   sample.delay = is_cell ? delay_[at(sample.cell)] : has_left ? kUnbounded : kOutsideSafe;
   if (!to_aim_.empty()) sample.arrival = is_cell ? to_aim_[at(sample.cell)] : is_beyond_goal ? 0 : kUnbounded;

@@ -51,7 +51,7 @@ class ClosedLoop {
   struct State {
     std::vector<Rational> exact;
     std::vector<Rational> measured;
-    NextStates::Place place;
+    NextStates::CellLocation location;
   };
 
   [[nodiscard]] bool is_in_k(const std::vector<Rational>& measured) const;

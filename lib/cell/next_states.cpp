@@ -150,8 +150,8 @@ double NextStates::followed(std::int64_t u) {
   return least;
 }
 
-NextStates::Place NextStates::place(std::int64_t u) {
-  Place result{.cell = 0};
+NextStates::CellLocation NextStates::location(std::int64_t u) {
+  CellLocation result{.cell = 0};
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Value& value = entry(i, u).value;
     result.kind = std::max(result.kind, value.kind);  // what is worst counts

@@ -30,7 +30,7 @@ class NextStates {
     std::int64_t index = -1;
   };
   /// Where a next state is measured.
-  struct Place {
+  struct CellLocation {
     Location::Kind kind = Location::Kind::cell;
     std::int64_t cell = -1;  ///< -1 unless `kind` is `cell`
   };
@@ -45,7 +45,7 @@ class NextStates {
 
   [[nodiscard]] const Value& state(std::size_t i, std::int64_t u);
   /// Where the next state is measured, as locate() has it; `beyond` if it is not known.
-  [[nodiscard]] Place place(std::int64_t u);
+  [[nodiscard]] CellLocation location(std::int64_t u);
   /// All states are known under `u`.
   [[nodiscard]] bool is_known(std::int64_t u);
   /// One that is known is beyond an unsafe side under `u`, whatever becomes of the others.

@@ -80,10 +80,10 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
 
 /// The policy of the delays, with the one that is asked for, or else all that need not be asked for.
 std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, const SimulationOptions& options) {
-  const std::string asked = options.blind ? kBlindKind.name : options.silent ? kSilenceKind.name : "";
+  const std::string requested = options.blind ? kBlindKind.name : options.silent ? kSilenceKind.name : "";
   std::vector<AnswerPolicy> policies = answer_policies(spec);
   std::erase_if(policies, [&, first = policies.front().delay](const AnswerPolicy& policy) {
-    const bool is_left = asked.empty() ? policy.is_on_request : policy.name != asked;
+    const bool is_left = requested.empty() ? policy.is_on_request : policy.name != requested;
     return policy.delay != first && (policy.delay.empty() || is_left);
   });
   return policies;
@@ -123,10 +123,10 @@ class LoadedTables : public ByteTables {
 
   [[nodiscard]] std::int64_t length(const std::string& scale) const override { return lengths_.at(scale); }
   [[nodiscard]] std::vector<std::uint8_t> bytes(const std::string& path,
-                                                const std::vector<std::int64_t>& place) const override {
+                                                const std::vector<std::int64_t>& indices) const override {
     const Table& table = tables_.at(path);
     std::int64_t row = 0;
-    for (std::size_t i = 0; i < place.size(); ++i) row = row * table.shape[i] + place[i];
+    for (std::size_t i = 0; i < indices.size(); ++i) row = row * table.shape[i] + indices[i];
     const auto first = table.bytes.begin() + static_cast<std::ptrdiff_t>(row * table.shape.back());
     return {first, first + static_cast<std::ptrdiff_t>(table.shape.back())};
   }

@@ -95,9 +95,9 @@ TEST_P(NextStatesByEstimate, AreMeasuredWhereExactOnesAre) {
         at_faces[i] += is_integer((measured[i] - exact.face(i, 0)) / grid[i].step) ? 1 : 0;
       }
       const Location location = locate(grid, measured);
-      const NextStates::Place place = next.place(u);
-      ASSERT_EQ(place.kind, location.kind);
-      ASSERT_EQ(place.cell, location.cell);
+      const NextStates::CellLocation measured_at = next.location(u);
+      ASSERT_EQ(measured_at.kind, location.kind);
+      ASSERT_EQ(measured_at.cell, location.cell);
       EXPECT_TRUE(next.is_known(u));
       for (std::size_t i = 0; i < 2; ++i) ASSERT_EQ(next.state(i, u).value + error[i], measured[i]);
     }
