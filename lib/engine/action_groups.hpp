@@ -75,7 +75,7 @@ class ActionGrouping {
   /// One source, as it tells the actions of a class apart.
   struct View {
     std::size_t table = 0;
-    /// Every combination is told apart, in every row.
+    /// Every combination is distinguished, in every row.
     bool all_distinct = false;
     /// Numbers of equal columns, [row choice * width + combination]; empty: the table uses no other class's
     /// inputs and its ids serve directly.

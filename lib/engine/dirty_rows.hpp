@@ -17,7 +17,7 @@ namespace coordreq {
 /// time of three vehicles.
 ///
 /// Threads: several may call mark(), for different rows; several may call mark_seen(), for different units;
-/// several may call is_pending(), enter() and meets_change(), each with a scratch of its own, while nobody
+/// several may call is_pending(), enter() and meets_change(), each with a scratch of its own, while no thread
 /// marks. Everything else is for one thread.
 class DirtyRows {
  public:
@@ -65,7 +65,7 @@ class DirtyRows {
     return changed_[static_cast<std::size_t>(row)] > batch;
   }
 
-  /// Goes to a unit, whose rows are asked about with this scratch.
+  /// Goes to a unit; queries with this scratch are about its rows.
   void enter(std::int64_t unit, Scratch& scratch) const;
   /// True if posts of a row of the unit entered can meet a row that has changed since the unit was looked at.
   [[nodiscard]] bool meets_change(const RowPosition& position, std::int64_t unit, Scratch& scratch) const;

@@ -21,7 +21,7 @@ namespace coordreq {
 /// With choices of a class added up together it took a large aircraft from 0.71 - 0.74 to 0.55 - 0.60 of the
 /// time of an earlier version. The switch is FastPaths::level_delta.
 ///
-/// Threads: several may call change() for different rows; nobody reads meanwhile.
+/// Threads: several may call change() for different rows; no thread reads meanwhile.
 template <class Level>
 class LevelDelta {
  public:

@@ -29,7 +29,7 @@ namespace coordreq {
 /// same, but the system gives only pages that are written. Where several processes share the work each has
 /// the rows of all of them, of which only those that it holds mean something and take memory (RowShare).
 ///
-/// Threads: any number may read while nobody writes. Different threads may write different rows; interned
+/// Threads: any number may read while no thread writes. Different threads may write different rows; interned
 /// rows are written by one thread at a time. make_ready() is for any number of threads at any time.
 ///
 /// 1. A row that was written is *closed*: its margins and gaps follow from its cells. Interned rows are

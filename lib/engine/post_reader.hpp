@@ -39,7 +39,7 @@ class PostReader {
   PostReader& operator=(const PostReader&) = delete;
   ~PostReader() = default;
 
-  /// Goes to the unit of a row: rows of it are asked about from now on.
+  /// Goes to the unit of a row: queries from now on are about its rows.
   void enter(std::int64_t row) { enter(row, *levels_); }
 
   /// Goes to the unit of a row, and reads other levels of the same layout from now on.

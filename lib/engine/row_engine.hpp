@@ -31,7 +31,7 @@ struct RowFamily {
 ///
 /// The least level in the posts of a row is a minimum over a box of rows (in the dimensions across rows) and
 /// over windows along the row. Rows run along the last dimension, or along several where each of these moves
-/// by an offset of its own: see join_rows(). Where the first `outer()` dimensions move by themselves,
+/// by an offset of its own: see join_rows(). Where the first `outer()` dimensions move independently,
 /// whatever the others do, the minimum over them is the same for all rows that share these indices: a *unit*.
 /// PostReader takes that minimum once.
 ///
@@ -100,7 +100,7 @@ class RowEngine {
   [[nodiscard]] std::size_t across() const { return grid().across(); }
   [[nodiscard]] std::size_t along() const { return tables() - across(); }
 
-  /// True if the first dimensions move by themselves: none of their tables depends on a dimension after them.
+  /// True if the first dimensions move independently: none of their tables depends on a dimension after them.
   [[nodiscard]] bool is_closed(std::size_t outer) const;
   /// Number of leading dimensions whose minimum is shared by the rows of a unit; may be 0.
   [[nodiscard]] std::size_t outer() const { return outer_; }

@@ -37,7 +37,7 @@ class SparingOperator final : public RowOperator<Level> {
  private:
   std::unique_ptr<RowOperator<Level>> others_;
   const CellSet& spared_;
-  std::vector<std::vector<Level>> old_;  ///< [worker] levels of the cells that are asked about
+  std::vector<std::vector<Level>> old_;  ///< [worker] levels of the cells in question
 };
 
 }  // namespace coordreq

@@ -42,8 +42,8 @@ struct PatchLayout {
 /// thread that asks for it first. A patch is the minimum over some ranges in the leading dimensions, of the
 /// rows of a unit with their margins, eroded by boxes of every size that occurs or of one.
 ///
-/// Threads: any number may call everything; each holds the patches of one unit at a time. What nobody holds
-/// is used again for other units.
+/// Threads: any number may call everything; each holds the patches of one unit at a time. What no thread
+/// holds is used again for other units.
 template <class Level>
 class SumPatches {
  public:

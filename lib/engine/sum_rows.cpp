@@ -87,7 +87,7 @@ class SumRows::Builder {
     }
   }
 
-  /// Profiles are told apart by the variables of terms that vary along the row.
+  /// Profiles are distinguished by the variables of terms that vary along the row.
   void lay_out_profiles() {
     std::vector<std::int64_t> counts;
     const auto is_used = [&](std::size_t i, auto strides) {

@@ -20,7 +20,7 @@ struct AbsoluteIntegral {
 /// Upper bound of the integral of |g(s)| over [0, end] for g(s) = sum_k coefficient[k] * s^k, end >= 0.
 ///
 /// Exact where bisection isolates the sign changes (always if g keeps its sign in Bernstein form); around an
-/// irrational root a stretch of 2^-24 of the range is bounded by its largest value.
+/// irrational root an interval of 2^-24 of the range is bounded by its largest value.
 [[nodiscard]] AbsoluteIntegral integral_of_absolute(const std::vector<Rational>& coefficient,
                                                     const Rational& end);
 

@@ -7,7 +7,7 @@
 namespace coordreq {
 namespace {
 
-/// A point as it was typed, or rounded: nobody would find a fraction of many digits.
+/// A point as it was typed, or rounded: a fraction of many digits says little.
 std::string point_text(const Rational& point) {
   const std::string exactly = to_text(point);
   return exactly.find('/') == std::string::npos ? exactly : fmt::format("{:.6g}", point.get_d());

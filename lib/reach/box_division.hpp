@@ -89,7 +89,7 @@ class BoxDivision {
   std::int64_t work_ = 0;  ///< of the subboxes that have been enclosed, in sub-steps along a solution
   std::int64_t enclosed_ = 0;
   std::vector<bool> given_up_;  ///< lower and upper end of every target
-  std::size_t next_check_ = 0;  ///< number of subboxes at which it is asked whether it still pays
+  std::size_t next_check_ = 0;  ///< number of subboxes at which it is checked whether it still pays
   double missed_ = 0.0;         ///< at the last check
 };
 

@@ -17,7 +17,7 @@ enum class StopPhase : std::uint8_t {
 };
 
 /// One solution under constant disturbances, enclosed, with sub-steps of its own: for what a single Taylor
-/// step cannot do, as kinks on the way, and states that run into a limit. Such events are located by
+/// step cannot do, as kinks within it, and states that run into a limit. Such events are located by
 /// bisection and crossed in a tiny step of first order. Scratch memory for one thread.
 class NominalFlow {
  public:

@@ -13,7 +13,7 @@ namespace {
 
 /// Number of dimensions with corners of their own; further dimensions follow the last of these.
 constexpr std::size_t kCornerDimensions = 6;
-/// Against the step of the grid; nobody sees more.
+/// Relative to the step of the grid; less makes no difference.
 constexpr double kSampleTolerance = 1e-6;
 /// Sub-steps of the solutions from one box: those of a stiff system take a thousand each.
 constexpr std::int64_t kMostTried = 2 * PointFlow::kFewSteps;

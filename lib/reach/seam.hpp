@@ -21,7 +21,7 @@ inline constexpr int kMostTurns = 4;
 /// The representative of a state that is used as a number.
 enum class Representative : std::uint8_t {
   followed,  ///< the value that it has, up to kMostTurns periods beyond the ring
-  anywhere,  ///< a new variable, to be taken for anything in [lower, upper]
+  anywhere,  ///< a new variable, which may be anything in [lower, upper]
 };
 
 /// New variables that wind() puts in.

@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// How far solutions from a box part from one another on their way, in double arithmetic and without limits
+/// How far solutions from a box diverge from one another, in double arithmetic and without limits
 /// and seams: a guess that proves nothing. It tells into which subboxes a box is worth dividing before any of
 /// them is enclosed.
 ///

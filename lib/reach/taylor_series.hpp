@@ -12,7 +12,7 @@ namespace coordreq {
 
 /// Taylor coefficients x^[k] = x^(k) / k! of the solutions of an autonomous smooth system through boxes, by
 /// interval automatic differentiation along the tape: coefficient(l, i, k) encloses x_i^[k] at every point of
-/// box l. Over an a-priori enclosure that is Lagrange's remainder: h^p x_i^[p] with x somewhere on the way.
+/// box l. Over an a-priori enclosure that is Lagrange's remainder: h^p x_i^[p] with x somewhere in it.
 ///
 /// A few boxes side by side, in lanes of vectors, take no longer than one (taylor_kernels.hpp).
 ///

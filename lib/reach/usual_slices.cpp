@@ -70,7 +70,7 @@ class RowDraw {
     slots_[spec_.state_slot(i)] = Interval(centre - radius, centre + radius);
   }
 
-  /// @param from index that the ends are told from
+  /// @param from index that the ends are relative to
   void add_post(std::int64_t from, Row& row) {
     Interval next = evaluator_.number(slots_);
     if (spec_.dynamics.time == Time::continuous) {
@@ -101,7 +101,7 @@ class RowDraw {
   double period_;
   std::vector<Scale> scales_;  ///< [state]
   std::mt19937_64 random_{20180410};
-  std::int64_t begin_ = 0;  ///< of the stretch, the same in all rows
+  std::int64_t begin_ = 0;  ///< of the segment, the same in all rows
 };
 
 double segments_of(const Row& row) {
