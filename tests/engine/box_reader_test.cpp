@@ -134,12 +134,12 @@ struct Levels {
   [[nodiscard]] Level at(std::int64_t row, std::int64_t k) const {
     const std::int64_t n = problem.dimensions.back().count;
     const RowEnds ends = problem.ends();
-    const Level* own = cells.data() + row * n;
-    if (ends.below == Outside::periodic) return own[(k % n + n) % n];
-    if (k >= 0 && k < n) return own[k];
+    const Level* row_cells = cells.data() + row * n;
+    if (ends.below == Outside::periodic) return row_cells[(k % n + n) % n];
+    if (k >= 0 && k < n) return row_cells[k];
     const Outside rule = k < 0 ? ends.below : ends.above;
     if (rule == Outside::unsafe) return 0;
-    return rule == Outside::safe ? kTop : own[k < 0 ? 0 : n - 1];
+    return rule == Outside::safe ? kTop : row_cells[k < 0 ? 0 : n - 1];
   }
 
   /// Calls visit(row) for the rows of a box, in the plainest way.

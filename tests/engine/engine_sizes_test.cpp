@@ -24,33 +24,33 @@ ProblemSpec plane(const std::string& equations, const std::string& outside = "un
 }
 
 /// Compares estimates with the sizes of what the engine makes of the same spec.
-void expect_told(const ProblemSpec& spec) {
+void expect_sizes(const ProblemSpec& spec) {
   ThreadTeam team(1);
   const Model model(spec, table_shapes(spec));
-  const EngineSizes told(model);
+  const EngineSizes sizes(model);
   Abstraction f = arranged(build_abstraction(spec, team), model.order());
   f.grid = join_rows(f, model.most_along());
   const RowEngine engine(f, nullptr, {});
-  EXPECT_EQ(told.grid().across(), f.grid.across());
+  EXPECT_EQ(sizes.grid().across(), f.grid.across());
   const auto levels = static_cast<double>(engine.make_levels<std::uint8_t>(engine.posts()).bytes());
-  EXPECT_GE(told.levels() + 100, levels);
-  EXPECT_LE(told.levels(), 2 * levels + 100);  // how far posts go is not known yet
+  EXPECT_GE(sizes.levels() + 100, levels);
+  EXPECT_LE(sizes.levels(), 2 * levels + 100);  // how far posts go is not known yet
   const auto set = static_cast<double>(CellSet(engine.rows(), engine.row_length()).words().size_bytes());
-  EXPECT_GE(1.01 * told.set(), set);
-  EXPECT_LE(told.set(), 1.2 * set);
+  EXPECT_GE(1.01 * sizes.set(), set);
+  EXPECT_LE(sizes.set(), 1.2 * set);
   for (std::size_t t = 0; t < engine.tables(); ++t) {
-    EXPECT_GE(1.1 * told.slices(t) + 2000, static_cast<double>(engine.slices()[t].bytes())) << t;
-    EXPECT_NEAR(told.table(t), static_cast<double>(f.tables[t].bytes()), 1) << t;
+    EXPECT_GE(1.1 * sizes.slices(t) + 2000, static_cast<double>(engine.slices()[t].bytes())) << t;
+    EXPECT_NEAR(sizes.table(t), static_cast<double>(f.tables[t].bytes()), 1) << t;
   }
 }
 
 TEST(EngineSizes, AreToldBeforeThereAreTables) {
   for (const char* outside : {"unsafe", "safe", "saturate"}) {
     SCOPED_TRACE(outside);
-    expect_told(plane(R"({"a": "a + u", "b": "b - u", "c": "c + 2 * u"})", outside));  // one long row
-    expect_told(plane(R"({"a": "a + u", "b": "b + u", "c": "c + a / 10"})", outside));
-    expect_told(plane(R"({"a": "a / 2 + u", "b": "b + c", "c": "c - u"})", outside));
-    expect_told(plane(R"({"a": "a * b / 31 + u", "b": "c", "c": "b"})", outside));
+    expect_sizes(plane(R"({"a": "a + u", "b": "b - u", "c": "c + 2 * u"})", outside));  // one long row
+    expect_sizes(plane(R"({"a": "a + u", "b": "b + u", "c": "c + a / 10"})", outside));
+    expect_sizes(plane(R"({"a": "a / 2 + u", "b": "b + c", "c": "c - u"})", outside));
+    expect_sizes(plane(R"({"a": "a * b / 31 + u", "b": "c", "c": "b"})", outside));
   }
 }
 

@@ -102,10 +102,10 @@ TEST(PointFlow, WhatSlidesStays) {
 }
 
 TEST(PointFlow, WhatSlidesStaysWithinAPartOfAStepHoweverFastItIs) {
-  const double part = 0.125 / 64;
-  EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h > 0, -1e9, 1)", "0"), 0.1)[0], 0.0, 1.01 * part);
-  EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h > 0, -1, 1e9)", "0"), 0.1)[0], 0.0, 1.01 * part);
-  EXPECT_NEAR(after_period(flow_spec(kOpen, "-100*sign(h)", "0"), 0.1)[0], 0.0, 1.01 * part);
+  const double substep = 0.125 / 64;
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h > 0, -1e9, 1)", "0"), 0.1)[0], 0.0, 1.01 * substep);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h > 0, -1, 1e9)", "0"), 0.1)[0], 0.0, 1.01 * substep);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "-100*sign(h)", "0"), 0.1)[0], 0.0, 1.01 * substep);
 }
 
 TEST(PointFlow, WhatIsFastOnBothSidesOfAJumpIsNotFollowed) {
@@ -134,8 +134,8 @@ class ExactFlow {
       if (state.above == Outside::periodic && rate > 0 && h == 1) h = 0;
       if (state.above == Outside::periodic && rate < 0 && h == 0) h = 1;
       Rational time = left;
-      for (const Rational& place : breaks_) {
-        const Rational reached = rate == 0 ? left : Rational((place - h) / rate);
+      for (const Rational& position : breaks_) {
+        const Rational reached = rate == 0 ? left : Rational((position - h) / rate);
         if (reached > 0) time = std::min(time, reached);
       }
       p += time * rate_at(h + rate * time / 2);
@@ -162,16 +162,16 @@ class ExactFlow {
 TEST(PointFlow, PiecewiseLinearMotionIsExact) {
   EXPECT_TRUE(rc::check([] {
     const int k = *rc::gen::inRange(0, 17);
-    const std::string place = std::to_string(k) + "/16";
+    const std::string position = std::to_string(k) + "/16";
     const std::vector<std::string> pieces{"h",
-                                          "abs(h - " + place + ")",
-                                          "sign(h - " + place + ")",
-                                          "floor(2*min(max(h, 0), 1) - 2*" + place + ")",
-                                          "min(h, " + place + ")",
-                                          "max(" + place + ", 1 - h)",
-                                          "if(h < " + place + ", 1 + h, -2)",
-                                          "abs(abs(h - 1/2) - " + place + ")",
-                                          "if(h >= " + place + " and not h > 3/4, h, sign(h - 1/4))"};
+                                          "abs(h - " + position + ")",
+                                          "sign(h - " + position + ")",
+                                          "floor(2*min(max(h, 0), 1) - 2*" + position + ")",
+                                          "min(h, " + position + ")",
+                                          "max(" + position + ", 1 - h)",
+                                          "if(h < " + position + ", 1 + h, -2)",
+                                          "abs(abs(h - 1/2) - " + position + ")",
+                                          "if(h >= " + position + " and not h > 3/4, h, sign(h - 1/4))"};
     const std::string first = *rc::gen::elementOf(pieces);
     const std::string second = *rc::gen::elementOf(pieces);
     const std::string kind = *rc::gen::elementOf(std::vector<std::string>{kRing, kStopped, kOpen});

@@ -22,14 +22,14 @@ std::int64_t cell_of(const Abstraction& a, const std::vector<std::int64_t>& inde
   return cell;
 }
 
-const std::string kPlace = R"({"name": "p", "lower": -2, "upper": 2, "step": 0.5}, )";
+const std::string kPosition = R"({"name": "p", "lower": -2, "upper": 2, "step": 0.5}, )";
 const std::string kSpeed = R"({"name": "v", "lower": -1, "upper": 1, "step": 0.25)";
 
 TEST(OffLimits, ChainsOfIntegratorsAreExactWhereNothingIsStopped) {
   const std::string equations = R"("p": "v", "v": "u")";
   const Abstraction stopped =
-      test::build(refused_flow(kPlace + kSpeed + R"(, "outside": "stop"})", equations));
-  const Abstraction free = test::build(refused_flow(kPlace + kSpeed + "}", equations));
+      test::build(refused_flow(kPosition + kSpeed + R"(, "outside": "stop"})", equations));
+  const Abstraction free = test::build(refused_flow(kPosition + kSpeed + "}", equations));
   int same = 0;
   for (std::int64_t k = 0; k < 9; ++k) {
     const double speed = -1.0 + 0.25 * static_cast<double>(k);
@@ -61,13 +61,13 @@ std::pair<double, double> stopped_chain(double v, double u) {
 
 TEST(OffLimits, SolutionsStayInPostsNearLimitsToo) {
   const Abstraction a =
-      test::build(refused_flow(kPlace + kSpeed + R"(, "outside": "stop"})", R"("p": "v", "v": "u")"));
+      test::build(refused_flow(kPosition + kSpeed + R"(, "outside": "stop"})", R"("p": "v", "v": "u")"));
   const double inputs[] = {-1.0, 0.0, 0.5};
   for (std::int64_t k = 0; k < 9; ++k) {
     const std::int64_t cell = cell_of(a, {4, k});
     for (std::int64_t u = 0; u < 3; ++u) {
-      for (int part = 0; part <= 20; ++part) {
-        const double v = std::clamp(-1.0 + 0.25 * (static_cast<double>(k) - 0.5 + part / 20.0), -1.0, 1.0);
+      for (int index = 0; index <= 20; ++index) {
+        const double v = std::clamp(-1.0 + 0.25 * (static_cast<double>(k) - 0.5 + index / 20.0), -1.0, 1.0);
         const auto [moved, end] = stopped_chain(v, inputs[u]);
         const auto position = [&](std::size_t i, double value) {
           return (value - a.grid[i].first.get_d()) / a.grid[i].step.get_d();

@@ -44,10 +44,10 @@ class Simulation {
   void advance(double duration) {
     std::vector<double> next = stepped(duration);
     while (passes_seam(next)) {
-      const double part = part_before_seam(duration);
-      slots_ = stepped(part);
-      for (std::size_t i = 0; i < turns_.size(); ++i) turns_[i] += way_out(i, slots_);
-      duration -= part;
+      const double time = time_before_seam(duration);
+      slots_ = stepped(time);
+      for (std::size_t i = 0; i < turns_.size(); ++i) turns_[i] += side_passed(i, slots_);
+      duration -= time;
       next = stepped(duration);
     }
     slots_ = std::move(next);
@@ -70,7 +70,7 @@ class Simulation {
   }
 
   /// -1, 0 or 1: on which side the state is out of the turn that it was in.
-  [[nodiscard]] int way_out(std::size_t i, const std::vector<double>& slots) const {
+  [[nodiscard]] int side_passed(std::size_t i, const std::vector<double>& slots) const {
     if (spec_.states[i].below != Outside::periodic) return 0;
     const double value = slots[i] - turns_[i] * period(i);
     return value >= spec_.states[i].upper.get_d() ? 1 : value < spec_.states[i].lower.get_d() ? -1 : 0;
@@ -78,13 +78,13 @@ class Simulation {
 
   [[nodiscard]] bool passes_seam(const std::vector<double>& next) const {
     for (std::size_t i = 0; i < turns_.size(); ++i) {
-      if (way_out(i, next) != 0) return true;
+      if (side_passed(i, next) != 0) return true;
     }
     return false;
   }
 
   /// Up to just beyond the first seam. REQUIRES: one is passed.
-  [[nodiscard]] double part_before_seam(double duration) const {
+  [[nodiscard]] double time_before_seam(double duration) const {
     double before = 0;
     double after = duration;
     for (double middle = after / 2; before < middle && middle < after; middle = (before + after) / 2) {

@@ -141,8 +141,8 @@ TEST(SplitFlow, WhereSolutionsMeetAllOfTheBoxIsDivided) {
   flow.stops.resize(2);
   flow.stops[0] = {.below = false, .above = true, .lower = {}, .upper = Interval(1.0)};
   flow.tau = 1.0;
-  SplitFlow parts = split(flow, 0.05, 200);
-  const FlowEnclosure found = parts.flow(flow.slots);
+  SplitFlow divided = split(flow, 0.05, 200);
+  const FlowEnclosure found = divided.flow(flow.slots);
   ASSERT_EQ(found.status, FlowEnclosure::Status::ok);
   for (int a = 0; a <= 20; ++a) {
     for (int b = 0; b <= 20; ++b) {
@@ -162,10 +162,10 @@ TEST(SplitFlow, WhereSolutionsMeetAllOfTheBoxIsDivided) {
 
 TEST(SplitFlow, TwiceTheSameIsTheSame) {
   const FlowCase flow = van_der_pol(0.0, 0.5);
-  SplitFlow parts = split(flow, 0.5, 100);
-  const FlowEnclosure first = parts.flow(flow.slots);
-  (void)parts.flow(van_der_pol(1.0, -4.0).slots);
-  const FlowEnclosure again = parts.flow(flow.slots);
+  SplitFlow divided = split(flow, 0.5, 100);
+  const FlowEnclosure first = divided.flow(flow.slots);
+  (void)divided.flow(van_der_pol(1.0, -4.0).slots);
+  const FlowEnclosure again = divided.flow(flow.slots);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(first.end[i].lower, again.end[i].lower);
     EXPECT_EQ(first.end[i].upper, again.end[i].upper);

@@ -79,7 +79,7 @@ bool is_in_cells(const GridDimension& dimension, IndexRange range, double value,
   return false;
 }
 
-void attack_ways(const SystemSpec& spec, const Abstraction& a, int cases) {
+void attack_tubes(const SystemSpec& spec, const Abstraction& a, int cases) {
   std::mt19937_64 random(20180410);
   for (int c = 0; c < cases; ++c) {
     const test::RandomStart start = test::random_start(spec, a, random);
@@ -96,8 +96,8 @@ void attack_limits(const SystemSpec& spec, const Abstraction& a, int cases) {
   std::mt19937_64 random(20180410);
   std::vector<Evaluator<double>> equations(spec.dynamics.equations.begin(), spec.dynamics.equations.end());
   const auto clamped = [&](std::size_t i, double x) {
-    const GridDimension& own = a.grid[i];
-    return std::clamp(x, own.first.get_d(), own.point(own.count - 1).get_d());
+    const GridDimension& dimension = a.grid[i];
+    return std::clamp(x, dimension.first.get_d(), dimension.point(dimension.count - 1).get_d());
   };
   for (int c = 0; c < cases; ++c) {
     test::RandomStart start = test::random_start(spec, a, random);
@@ -135,7 +135,7 @@ TEST(SplitSystem, WhateverAPlantHasIsHeldByThePartsOfItsCells) {
     } else {
       test::attack(spec, divided, 300);
     }
-    if (one.between_samples) attack_ways(spec, divided, 100);
+    if (one.between_samples) attack_tubes(spec, divided, 100);
   }
 }
 

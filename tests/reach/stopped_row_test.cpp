@@ -52,8 +52,8 @@ double moved(double v, double u) {
 }
 
 TEST(StoppedRow, WhatFollowsAStoppedIntegratorIsExactToo) {
-  const std::string place = R"({"name": "p", "lower": 0, "upper": 20, "step": 0.01}, )";
-  const Abstraction a = built(spec_of(place + kSpeed, R"("p": "v", "v": "u")"));
+  const std::string position = R"({"name": "p", "lower": 0, "upper": 20, "step": 0.01}, )";
+  const Abstraction a = built(spec_of(position + kSpeed, R"("p": "v", "v": "u")"));
   EXPECT_TRUE(a.exact);
   const double inputs[] = {-4, 0, 4};
   for (std::int64_t k = 0; k <= 10; ++k) {
@@ -70,8 +70,8 @@ TEST(StoppedRow, WhatFollowsAStoppedIntegratorIsExactToo) {
 }
 
 TEST(StoppedRow, WhatActsOnAStoppedStateAndOnAnotherIsEnclosed) {
-  const std::string place = R"({"name": "p", "lower": 0, "upper": 20, "step": 1}, )";
-  const Abstraction a = built(spec_of(place + kSpeed, R"("p": "v - w", "v": "u + w")",
+  const std::string position = R"({"name": "p", "lower": 0, "upper": 20, "step": 1}, )";
+  const Abstraction a = built(spec_of(position + kSpeed, R"("p": "v - w", "v": "u + w")",
                                       R"("disturbances": [{"name": "w", "lower": -1, "upper": 1}], )"));
   EXPECT_FALSE(a.exact);
 }

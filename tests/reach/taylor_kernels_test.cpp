@@ -145,10 +145,10 @@ TEST(TaylorKernels, EachLaneIsAsItWouldBeAlone) {
       Series alone = start;
       for (std::vector<BallLanes>* const all : {&alone.coefficients, &alone.states}) {
         for (BallLanes& balls : *all) {
-          const Ball own{balls.middle[lane], balls.radius[lane]};
+          const Ball ball{balls.middle[lane], balls.radius[lane]};
           balls = {};
-          balls.middle[0] = own.middle;
-          balls.radius[0] = own.radius;
+          balls.middle[0] = ball.middle;
+          balls.radius[0] = ball.radius;
         }
       }
       alone.run(portable_taylor_kernels(), 1);

@@ -143,16 +143,16 @@ TEST(Tube, ThatEndsTellIsNotWiderThanWithAnEnclosure) {
   for (const std::string motion : {"v", "v - 0.5", "v - 3"}) {
     const SystemSpec spec = flow(states, R"("x": ")" + motion + R"(", "v": "u")", "half_open");
     const AffineDynamics dynamics(spec);
-    const Abstraction told = test::build(spec);
+    const Abstraction built = test::build(spec);
     ThreadTeam team(1);
-    EXPECT_FALSE(told.exact);
-    Abstraction enclosed = told;
+    EXPECT_FALSE(built.exact);
+    Abstraction enclosed = built;
     for (std::size_t i = 0; i < 2; ++i) {
       enclosed.tables[i] = {};
       enclosed.tubes[i] = {};
       build_enclosure_tables(spec, dynamics, enclosed, {i}, team);
-      EXPECT_EQ(told.tables[i].entries, enclosed.tables[i].entries);
-      EXPECT_EQ(told.tubes[i].entries, enclosed.tubes[i].entries);
+      EXPECT_EQ(built.tables[i].entries, enclosed.tables[i].entries);
+      EXPECT_EQ(built.tubes[i].entries, enclosed.tubes[i].entries);
     }
     EXPECT_EQ(build_affine_table(spec, dynamics, enclosed, 0, team).has_value(), motion != "v - 0.5");
   }

@@ -38,7 +38,7 @@ struct Drag {
   [[nodiscard]] double speed(double v, double t) const {
     return top() * std::tanh(std::atanh(v / top()) + rate() * t);
   }
-  [[nodiscard]] double way(double v, double t) const {
+  [[nodiscard]] double distance(double v, double t) const {
     // Integral of tanh is log cosh; beyond the top speed tanh becomes coth and cosh becomes sinh.
     return std::log(std::cosh(rate() * t) + v / top() * std::sinh(rate() * t)) / k;
   }
@@ -55,7 +55,7 @@ TEST(ValidatedFlow, VehicleWithDragHasItsExactHull) {
   ASSERT_EQ(post.status, Status::ok);
   const Drag drag{1.0, 0.2};
   expect_hull(post.end[1], drag.speed_above(2.75, 0.2), drag.speed_above(2.85, 0.2), 1e-8);
-  expect_hull(post.end[0], 1.0 + drag.way(2.75, 0.2), 1.1 + drag.way(2.85, 0.2), 1e-8);
+  expect_hull(post.end[0], 1.0 + drag.distance(2.75, 0.2), 1.1 + drag.distance(2.85, 0.2), 1e-8);
   const FlowEnclosure slow = vehicle({0.05, 0.15}, 1.0).enclosure();
   expect_hull(slow.end[1], drag.speed(0.05, 0.2), drag.speed(0.15, 0.2), 1e-8);
 }
@@ -78,8 +78,8 @@ TEST(ValidatedFlow, VehicleThatBrakesToAStandstillDoesNotReverse) {
   ASSERT_EQ(post.status, Status::ok);
   EXPECT_EQ(post.end[1].lower, 0.0);
   EXPECT_EQ(post.end[1].upper, 0.0);
-  const auto way = [](double v) { return std::log(1.0 + 0.2 * v * v) / 0.4; };
-  expect_hull(post.end[0], 1.0 + way(0.05), 1.1 + way(0.15), 2e-6);
+  const auto distance = [](double v) { return std::log(1.0 + 0.2 * v * v) / 0.4; };
+  expect_hull(post.end[0], 1.0 + distance(0.05), 1.1 + distance(0.15), 2e-6);
   EXPECT_EQ(post.tube[1].lower, 0.0);
 }
 
@@ -92,7 +92,7 @@ TEST(ValidatedFlow, HalfCellBeyondALimitIsNotOccupied) {
 TEST(ValidatedFlow, UpperLimitHolds) {
   const FlowEnclosure post = with_stop(vehicle({2.95, 3.05}, 2.0)).enclosure();
   EXPECT_EQ(post.end[1].upper, 3.0);
-  expect_hull(post.end[0], 1.0 + Drag{2.0, 0.2}.way(2.95, 0.2), 1.1 + 0.6, 1e-5);
+  expect_hull(post.end[0], 1.0 + Drag{2.0, 0.2}.distance(2.95, 0.2), 1.1 + 0.6, 1e-5);
 }
 
 TEST(ValidatedFlow, LimitThatIsNoDoubleIsKept) {
