@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "answers/step_codes.hpp"
 #include "numeric/rational.hpp"
 
@@ -29,11 +27,11 @@ void export_csv(const ResultsReader& results, const TableSelection& selection, c
     for (std::size_t c = 0; c < values.size(); ++c) {
       if (c > 0) text += ',';
       if (table.columns()[c].field->kind == FieldKind::probability) {
-        fmt::format_to(std::back_inserter(text), "{}", probability_of(values[c]));
+        text += fmt::format("{}", probability_of(values[c]));
       } else if (values[c] == kUnbounded) {
         text += "inf";
       } else {
-        fmt::format_to(std::back_inserter(text), "{}", values[c]);
+        text += std::to_string(values[c]);
       }
     }
     text += '\n';

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 #include <span>
 
 #include "base/requires.hpp"
@@ -23,7 +22,7 @@ constexpr std::uint64_t kBlockElements = 1 << 17;
 std::string text_field(const std::string& name, const std::vector<std::string>& texts) {
   std::string bytes;
   for (const std::string& text : texts) {
-    for (const char c : text) fmt::format_to(std::back_inserter(bytes), "{} ", static_cast<unsigned char>(c));
+    for (const char c : text) bytes += std::to_string(static_cast<unsigned char>(c)) + " ";
     bytes += "0 ";
   }
   return fmt::format(

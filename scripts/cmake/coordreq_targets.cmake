@@ -13,6 +13,8 @@ target_compile_options(coordreq_options INTERFACE
   # False alarms of g++ 12 on std::string (GCC bug 105651 and its like).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
+  # g++ tidies up its memory seldom: a twentieth to a tenth of its time, for 300 MiB more at most.
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
   # Interval arithmetic relies on every operation being rounded once, as written.
   -ffp-contract=off
   # Newer versions of g++ than that of Debian 12 may warn of more: there a warning is no error.
