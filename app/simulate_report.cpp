@@ -236,8 +236,11 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   }
   json["connection_delay"] = spec.coordination.connection_delay;
   json["policy"] = policy_name(options.policy);
-  if (options.blind) json["blind"] = true;
-  if (options.silent) json["silent"] = options.silent_steps ? Json(*options.silent_steps) : Json();
+  if (options.kind != nullptr) {
+    Json& requested = json[options.kind->option.key];
+    if (!options.kind->option.takes_steps) requested = true;
+    if (options.silent_steps) requested = *options.silent_steps;
+  }
   json["disturbance"] = disturbance_name(options.disturbance);
   json["seed"] = options.seed;
   json["runs"] = options.runs;

@@ -19,7 +19,7 @@ constexpr WholeNumber<std::int64_t> kCount{1, INT32_MAX - 1};
 
 struct SimulateOptions : CommonOptions {
   std::string results;
-  bool starts_anywhere = false;
+  bool starts_anywhere = false, is_blind = false, is_silent = false;
   std::optional<std::string> steps, silent_steps;
   SimulationOptions simulation;
   ProgressOptions progress;
@@ -44,6 +44,8 @@ void check_complete(const SimulateOptions& options) {
     throw UsageError("expected --from or --start, found both");
   if (!options.simulation.from && !options.starts_anywhere)
     throw UsageError("no start, expected --from NAME=VALUE,... or --start random");
+  if (options.is_silent && options.is_blind)
+    throw UsageError("expected --silent or --blind, found both", "--blind");
   if (!options.steps) throw UsageError("no number of steps, expected --steps N");
 }
 
@@ -84,6 +86,7 @@ ExitCode run(const SimulateOptions& args) {
   check_complete(args);
   if (args.simulation.output) check_output(args.results, *args.simulation.output, "the runs");
   SimulationOptions options = args.simulation;
+  options.kind = args.is_blind ? &kBlindKind : args.is_silent ? &kSilenceKind : nullptr;
   args.keep_to_memory();
   const ResultsReader results(args.results, args.max_memory);
   const DynamicsSpec& dynamics = results.spec().dynamics;
@@ -121,13 +124,13 @@ Run declare_simulate(Options& options) {
                    simulation.until_goal = OneOf<bool>{{{"goal", true}}}(text, option);
                  });
   options.flag(simulation.is_lossy, "--lossy", "Lose steps with the probabilities of the network");
-  options.flag(simulation.blind, "--blind",
+  options.flag(args->is_blind, "--blind",
                "During silence each class uses only the states that it sees, with its silent table");
   options.option_with_or_without(
       "--silent", "N",
       "Follow the communication-loss rule for N steps, then the fallback rule; without N, until S is left",
       [args = args.get()](const auto& text, const auto& /*option*/) {
-        args->simulation.silent = true;
+        args->is_silent = true;
         if (!text.empty()) args->silent_steps = text;
       });
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <optional>
 
+#include "answers/countdown/kinds.hpp"
+#include "answers/plan.hpp"
 #include "answers/step_codes.hpp"
 #include "base/error.hpp"
 #include "cell/state_text.hpp"
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"
 #include "spec/problem_spec.hpp"
-#include "spec/sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -29,43 +30,25 @@ void check_prefer(const ProblemSpec& spec, Policy policy) {
   throw UsageError("no agent of the spec has a 'prefer'", "--policy");
 }
 
-/// Who goes by what it sees itself knows nothing of what others would like, or of a goal.
-void check_blind(const ProblemSpec& spec, const SimulationOptions& options) {
-  if (!options.blind) return;
-  if (!has_limited_sight(spec))
-    throw UsageError("all agents see all states, expected some that do not: 'sees' in the spec", "--blind");
-  if (options.policy == Policy::prefer)
-    throw UsageError("'prefer' reads what agents do not see, expected random or adversarial with --blind",
-                     "--policy");
-  if (options.until_goal)
-    throw UsageError("agents with own observations only do not pursue the goal, expected --blind or --until",
-                     "--until");
-  if (options.is_lossy)
-    throw UsageError(
-        "agents with own observations only know that a step is lost, not the mode; expected --blind or "
-        "--lossy",
-        "--lossy");
-}
-
-/// Agents who follow rules have no other choice: refuses options that say otherwise.
-void check_silent(const ProblemSpec& spec, const SimulationOptions& options) {
-  if (!options.silent) return;
-  if (!spec.silence)
-    throw UsageError("the spec has no communication-loss rule, expected the key 'silence'", "--silent");
-  if (options.until_goal)
-    throw UsageError(
-        "agents under the communication-loss rule do not pursue the goal, expected --silent or --until",
-        "--until");
-  if (options.is_lossy)
-    throw UsageError("the network says when steps are lost, expected --silent or --lossy", "--lossy");
-  if (options.blind) throw UsageError("expected --silent or --blind, found both", "--blind");
+/// Agents that follow a policy on request have no other choice: refuses options that say otherwise.
+void check_kind(const ProblemSpec& spec, const SimulationOptions& options) {
+  if (options.kind == nullptr) return;
+  const CountdownOption& option = options.kind->option;
+  const auto is_of_kind = [&](const AnswerPolicy& policy) { return policy.kind == options.kind; };
+  if (std::ranges::none_of(answer_policies(spec), is_of_kind))
+    throw UsageError(option.missing, option.name());
+  const auto refuse = [](bool is_given, const char* error, const char* other) {
+    if (is_given && error != nullptr) throw UsageError(error, other);
+  };
+  refuse(options.policy == Policy::prefer, option.no_prefer, "--policy");
+  refuse(options.until_goal, option.no_until, "--until");
+  refuse(options.is_lossy, option.no_lossy, "--lossy");
 }
 
 }  // namespace
 
 void check_options(const ProblemSpec& spec, const SimulationOptions& options) {
-  check_silent(spec, options);
-  check_blind(spec, options);
+  check_kind(spec, options);
   check_prefer(spec, options.policy);
   if (options.until_goal && !spec.goal) throw UsageError("the spec has no goal", "--until");
   if (options.until_goal && spec.is_goal_lasting())
@@ -82,7 +65,7 @@ std::vector<Rational> start_state(const ResultsReader& results, const std::strin
 }
 
 void check_start(const ResultsReader& results, const std::vector<Rational>& state,
-                 std::span<const std::int32_t> delays, bool is_silent) {
+                 std::span<const std::int32_t> delays, bool is_anywhere) {
   const Location location = locate(results.grid(), state);
   std::optional<std::size_t> fault;
   if (location.kind != Location::Kind::cell) fault = location.dimension;
@@ -98,7 +81,7 @@ void check_start(const ResultsReader& results, const std::vector<Rational>& stat
   const std::int32_t steps = delays[static_cast<std::size_t>(location.cell)];
   if (steps < 0) {
     throw UsageError(steps == kOutsideSafe ? "the start is not in the safe set"
-                     : is_silent
+                     : is_anywhere
                          ? "the start is not in the silence set: the fallback rule is not safe from there"
                          : "the start is not in the invariance set: on this grid not even coordination keeps "
                            "the system safe from there",

@@ -72,7 +72,7 @@ class SelfTriggered final : public Schedule {
     const AnswerPolicy& policy = problem_.policies[policy_];
     const RunTrace::Sample& sample = trace.samples.back();
     if (policy_ == 0) return reset(sample.delay);
-    if (policy.is_on_request) return 0;  // no step has been agreed yet
+    if (policy.is_on_request()) return 0;  // no step has been agreed yet
     return reset(problem_.values.at(policy.delay)[at(sample.cell)]);
   }
 

@@ -14,7 +14,7 @@ SilenceWatch::SilenceWatch(const ResultsReader& results, std::size_t partition, 
       partition_(partition),
       connection_delay_(results.spec().coordination.connection_delay) {
   for (const AnswerPolicy& policy : controller.policies()) {
-    if (!policy.trigger.empty() && !policy.is_on_request) policies_.push_back(policy);
+    if (!policy.trigger.empty() && !policy.is_on_request()) policies_.push_back(policy);
   }
   // Read again where they are needed again: a log may be longer than what can be kept.
   const auto values = [&results](const std::string& path, ResultsReader::Leading leading) -> CellValue {

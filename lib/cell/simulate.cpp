@@ -78,12 +78,11 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
   return safe;
 }
 
-/// The policy of the delays, with the one that is asked for, or else all that need not be asked for.
+/// The policy of the delays, with the one that is requested, or else all that need no request.
 std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, const SimulationOptions& options) {
-  const std::string requested = options.blind ? kBlindKind.name : options.silent ? kSilenceKind.name : "";
   std::vector<AnswerPolicy> policies = answer_policies(spec);
   std::erase_if(policies, [&, first = policies.front().delay](const AnswerPolicy& policy) {
-    const bool is_left = requested.empty() ? policy.is_on_request : policy.name != requested;
+    const bool is_left = options.kind == nullptr ? policy.is_on_request() : policy.kind != options.kind;
     return policy.delay != first && (policy.delay.empty() || is_left);
   });
   return policies;
@@ -96,7 +95,7 @@ std::vector<std::string> loop_paths(const ProblemSpec& spec, const std::vector<A
     if (!path.empty() && std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
   };
   for (const AnswerPolicy& policy : policies) {
-    add(policy.is_on_request ? policy.countdown() : policy.delay);
+    add(policy.is_on_request() ? policy.countdown() : policy.delay);
     add(policy.aim.path);
   }
   // Runs end in such a goal, whatever agents go by.
@@ -237,7 +236,7 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
                       .connection_delay = spec.coordination.connection_delay};
   for (const auto& [path, cells] : values) problem.values[path] = cells;
   if (loop.start) {
-    check_start(results, *loop.start, problem.start_steps(), options.silent);
+    check_start(results, *loop.start, problem.start_steps(), policies.back().is_anywhere);
   } else if (!has_start(spec, problem.start_steps())) {
     throw UsageError(spec.memory.empty()
                          ? "the invariance set is empty: there is no state to start from"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "answers/countdown/kinds.hpp"
 #include "numeric/rational.hpp"
 #include "spec/spec_types.hpp"
 
@@ -49,13 +50,12 @@ struct LoopOptions {
 /// LoopOptions with what is resolved by a results file: simulate() sets `start` and `constant_disturbance`
 /// from the values given here.
 struct SimulationOptions : LoopOptions {
-  std::optional<std::string> from;  ///< start as parse_state() reads it; none: uniform over K
-  NamedValues disturbance_values;   ///< if constant; those not named are in the middle of their ranges
-  std::string partition;            ///< given or canonical name; empty: the only one
-  bool is_lossy = false;            ///< steps are lost with the probabilities of the network
-  bool blind = false;               ///< agents without communication use only the states that they observe
-  bool silent = false;              ///< agents follow the communication-loss rule
-  std::optional<std::string> output;  ///< path of the file of runs
+  std::optional<std::string> from;      ///< start as parse_state() reads it; none: uniform over K
+  NamedValues disturbance_values;       ///< if constant; those not named are in the middle of their ranges
+  std::string partition;                ///< given or canonical name; empty: the only one
+  bool is_lossy = false;                ///< steps are lost with the probabilities of the network
+  const CountdownKind* kind = nullptr;  ///< the policy that agents follow on request; null: none
+  std::optional<std::string> output;    ///< path of the file of runs
   /// Called with the name of each stage when it begins: "checking", "running", "writing"; there are temporary
   /// files in all but "running". May be empty.
   std::function<void(const std::string& stage)> entered;

@@ -31,7 +31,7 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
     if (!policy.trigger.empty()) read_values(policy.trigger, block, answer);
     const std::size_t partitions = policy.is_by_agent ? 1 : results_.partitions().size();
     for (std::size_t p = 0; p < partitions; ++p) {
-      const std::string& left = policy.is_on_request ? policy.countdown() : policy.delay;
+      const std::string& left = policy.is_on_request() ? policy.countdown() : policy.delay;
       const std::int32_t countdown = left.empty() ? 0 : answer.value(left, p);
       answer.actions[policy.name].push_back(controller_.actions(policy, p, cell, countdown));
     }

@@ -233,8 +233,10 @@ void write_runs(const std::string& path, const ResultsReader& results, const Sim
                                             {"policy", policy_name(options.policy)},
                                             {"disturbance_policy", disturbance_name(options.disturbance)},
                                             {"seed", options.seed}};
-  if (options.blind) attributes.push_back({"blind", std::int64_t{1}});
-  if (options.silent) attributes.push_back({"silent", options.silent_steps.value_or(-1)});
+  if (options.kind != nullptr) {
+    const CountdownOption& option = options.kind->option;
+    attributes.push_back({option.key, option.takes_steps ? options.silent_steps.value_or(-1) : 1});
+  }
   const RunFields runs(results, options, simulation);
   write_fields(path, {.label = "the runs", .filetype = "coordreq-runs", .version = {1, 0}},
                header_attributes(spec) + attributes, spec, runs.fields, runs.values, team);

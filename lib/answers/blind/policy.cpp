@@ -103,7 +103,6 @@ std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
            .headline = "with own observations only",
            .delay = paths::kBlindDelay,
            .trigger = paths::kBlindCountdown,
-           .is_on_request = true,
            .make = [](const PolicyContext& context) -> std::unique_ptr<CellPolicy> {
              return std::make_unique<BlindPolicy>(context);
            },

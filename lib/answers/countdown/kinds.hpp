@@ -4,6 +4,19 @@
 
 namespace coordreq {
 
+/// How runs of `simulate` follow a kind, if only by an option of its own.
+struct CountdownOption {
+  const char* key =
+      nullptr;  ///< the option without "--", and its member in JSON and in files of runs; null: none
+  bool takes_steps = false;         ///< for how many steps the agents follow it
+  const char* missing = nullptr;    ///< the error where a spec does not have the kind
+  const char* no_prefer = nullptr;  ///< errors with `--policy prefer`, `--until` and `--lossy`; null: allowed
+  const char* no_until = nullptr;
+  const char* no_lossy = nullptr;
+
+  [[nodiscard]] std::string name() const { return std::string("--") + key; }
+};
+
 /// A kind of countdown: from a base set, under a choice of sets of actions, for how many steps is it safe?
 /// All kinds have layers, which are found, stored, summarised and checked alike.
 struct CountdownKind {
@@ -11,6 +24,7 @@ struct CountdownKind {
   char letter;          ///< of its layers: Z_0, Z_1, ...
   const char* layered;  ///< path of the steps that say in which layers a cell is
   const char* label;    ///< for its layers, in findings
+  CountdownOption option = {};
 
   /// What the paths of `layer`, `layer_size` and `fixed_point_index` begin with.
   [[nodiscard]] std::string prefix() const { return *name == '\0' ? "/" : "/" + std::string(name) + "_"; }
@@ -21,8 +35,28 @@ inline constexpr CountdownKind kDelayKind{"", 'Z', "/delay", "layers"};
 /// IND_P; the goal, in which layers are those of delays, and W.
 inline constexpr CountdownKind kApproachKind{"approach", 'A', "/approach_delay", "approach layers"};
 /// What classes choose by what they see; K.
-inline constexpr CountdownKind kBlindKind{"blind", 'B', "/blind_countdown", "blind layers"};
+inline constexpr CountdownKind kBlindKind{
+    "blind",
+    'B',
+    "/blind_countdown",
+    "blind layers",
+    {.key = "blind",
+     .missing = "all agents see all states, expected some that do not: 'sees' in the spec",
+     .no_prefer = "'prefer' reads what agents do not see, expected random or adversarial with --blind",
+     .no_until = "agents with own observations only do not pursue the goal, expected --blind or --until",
+     .no_lossy = "agents with own observations only know that a step is lost, not the mode; expected --blind "
+                 "or --lossy"}};
 /// What the communication-loss rule permits; the set in which the fallback rule is safe, else K.
-inline constexpr CountdownKind kSilenceKind{"silence", 'L', "/silence", "silence layers"};
+inline constexpr CountdownKind kSilenceKind{
+    "silence",
+    'L',
+    "/silence",
+    "silence layers",
+    {.key = "silent",
+     .takes_steps = true,
+     .missing = "the spec has no communication-loss rule, expected the key 'silence'",
+     .no_until =
+         "agents under the communication-loss rule do not pursue the goal, expected --silent or --until",
+     .no_lossy = "the network says when steps are lost, expected --silent or --lossy"}};
 
 }  // namespace coordreq

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "answers/counterexample/path_finder.hpp"
+#include "answers/counterexample/path_run.hpp"
 #include "answers/step_codes.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -25,7 +25,7 @@ PathSearch::Choices find_choices(std::int64_t cell, PathSearch& search, PathRun&
 }
 
 CellPath find_path(const CounterexampleProblem& problem, std::int64_t cell, const Start& start) {
-  PathFinder run(problem);
+  PathRun run(problem);
   run.start_at(cell, start);
   PathSearch search(kMostLooks);
   const PathSearch::Choices choices = find_choices(cell, search, run);
@@ -35,7 +35,7 @@ CellPath find_path(const CounterexampleProblem& problem, std::int64_t cell, cons
 
 /// The nominal simulation. @returns as ResultPath::seen
 std::int32_t simulate_nominally(const CounterexampleProblem& problem, std::int64_t cell, const Start& start) {
-  PathFinder run(problem);
+  PathRun run(problem);
   run.start_at(cell, start);
   PathSearch search(kMostLooks);
   std::optional<PathPhase> first;

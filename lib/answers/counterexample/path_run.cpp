@@ -1,6 +1,5 @@
 #include "answers/counterexample/path_run.hpp"
 
-#include "answers/counterexample/step_finder.hpp"
 #include "ranks/ranks.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -9,9 +8,16 @@ namespace coordreq {
 PathRun::PathRun(const CounterexampleProblem& problem)
     : problem_(problem),
       context_(*problem.context),
+      grid_(context_.abstraction->grid),
       tubes_(context_.tubes()),
       posts_(*context_.abstraction),
-      real_(context_.spec, *context_.abstraction) {}
+      real_(context_.spec, *context_.abstraction),
+      invariant_(grid_, problem.invariant),
+      safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
+      beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
+      inputs_(context_.spec, posts_, members()),
+      progress_(context_.spec, posts_, problem.arrival),
+      steps_(problem, posts_, inputs_, real_) {}
 
 void PathRun::start_at(std::int64_t cell, const std::optional<std::vector<Rational>>& start) {
   if (start) {

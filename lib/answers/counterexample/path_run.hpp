@@ -1,13 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "answers/checking/class_choices.hpp"
 #include "answers/counterexample/counterexample.hpp"
 #include "answers/counterexample/nominal_run.hpp"
 #include "answers/counterexample/path_search.hpp"
+#include "answers/counterexample/step_finder.hpp"
+#include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/cell_posts.hpp"
+#include "answers/one_cell/progress_inputs.hpp"
 
 namespace coordreq {
 
@@ -28,7 +34,7 @@ struct Reached {
   bool is_safe = false;
 };
 
-/// A counterexample that grows step by step, and the system itself beside it: a walk for PathSearch. With
+/// A counterexample that grows step by step, phase by phase (path_steps.cpp), and the system itself beside it: a walk for PathSearch. With
 /// several processes together: each step is found by the one that owns the cell.
 class PathRun {
  public:
@@ -36,7 +42,7 @@ class PathRun {
   explicit PathRun(const CounterexampleProblem& problem);
   PathRun(const PathRun&) = delete;
   PathRun& operator=(const PathRun&) = delete;
-  virtual ~PathRun() = default;
+  ~PathRun() = default;
 
   /// Starts the system itself at a state, or at the centre of the cell.
   void start_at(std::int64_t cell, const std::optional<std::vector<Rational>>& start);
@@ -61,21 +67,6 @@ class PathRun {
   [[nodiscard]] bool goes_on() const { return last_.goes_on; }
   [[nodiscard]] CellPath& path() { return path_; }
 
- protected:
-  /// Adds a step to the path, from the last cell, which this process owns. @returns whether to go on
-  virtual bool add_step() = 0;
-  /// Which to take of equal joint inputs that the system itself can follow.
-  [[nodiscard]] std::int64_t number() const { return number_; }
-  void set_more(bool has_more) { last_.has_more = has_more; }
-
-  const CounterexampleProblem& problem_;
-  const AnalysisContext& context_;
-  TubeSets tubes_;
-  CellPosts posts_;
-  CellPath path_;
-  std::size_t phase_ = 0;  ///< of the next step
-  NominalRun real_;
-
  private:
   /// What the process that owns a cell says of a step to the others, beside the step.
   struct Progress {
@@ -84,12 +75,38 @@ class PathRun {
     Reached reached;
   };
 
+  /// Adds a step to the path, from the last cell, which this process owns. @returns whether to go on
+  bool add_step();
+  bool take_by(const CounterexamplePhase& phase);
+  bool take_together();
+  void lose_time();
+  bool take(const std::optional<StepChoice>& choice, const StepsFrom& steps, PathPhase phase);
+  void add_choice(std::int64_t u, PathPhase phase);
+  void end_at_block(const CellPost& post, bool is_forbidden);
+  [[nodiscard]] AdmissibleInputs::Sets members();
+  [[nodiscard]] const ClassChoices* choices_at(std::int64_t cell, PathPhase phase);
+  [[nodiscard]] std::int64_t soonest(std::int64_t u, std::int32_t worst);
+  [[nodiscard]] std::pair<std::int32_t, std::int64_t> choose_together(std::int64_t cell);
+
   void step_here();
   [[nodiscard]] Bytes last_step(std::size_t inputs, std::size_t cells) const;
   void read(const Bytes& message);
 
-  std::int64_t number_ = 0;
+  const CounterexampleProblem& problem_;
+  const AnalysisContext& context_;
+  const UniformGrid& grid_;
+  TubeSets tubes_;
+  CellPosts posts_;
+  CellPath path_;
+  std::size_t phase_ = 0;    ///< of the next step
+  std::int64_t number_ = 0;  ///< which to take of equal joint inputs that the system itself can follow
   Progress last_;
+  NominalRun real_;
+  MembersByCell invariant_, safe_, beyond_;
+  AdmissibleInputs inputs_;
+  ProgressInputs progress_;
+  std::array<std::optional<ClassChoices>, 3> choices_;  ///< by ClassChoices::Rules
+  StepFinder steps_;
 };
 
 }  // namespace coordreq

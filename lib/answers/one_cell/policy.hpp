@@ -94,9 +94,6 @@ struct AnswerPolicy {
         false;  ///< the policy is followed indefinitely: in the aim it says more than that of the delays
   };
   Aim aim = {};
-  /// Runs follow the policy only on request, by an option of its name, and then everywhere. `trigger` is then
-  /// the countdown that agents know, by which the actions of classes are chosen.
-  bool is_on_request = false;
   bool is_anywhere = false;  ///< the policy is about all cells of S
   bool is_by_agent = false;  ///< the policy is of agents, each by itself, in every partition
   std::unique_ptr<CellPolicy> (*make)(const PolicyContext& context) = nullptr;
@@ -113,6 +110,9 @@ struct AnswerPolicy {
   };
   HeaderComments header = {};
 
+  /// Runs follow the policy only on request, by the option of its kind, and then everywhere. `trigger` is
+  /// then the countdown that agents know, by which the actions of classes are chosen.
+  [[nodiscard]] bool is_on_request() const { return kind != nullptr && kind->option.key != nullptr; }
   [[nodiscard]] const std::string& countdown() const { return trigger.empty() ? delay : trigger; }
 };
 

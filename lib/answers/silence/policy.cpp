@@ -44,7 +44,6 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
            .gain = "safe by the rule",
            .headline = "by the communication-loss rule",
            .delay = paths::kSilence,
-           .is_on_request = true,
            .is_anywhere = true,
            .make = make_policy<ClassChoices::Rules::actions>,
            .make_then = spec.silence->has_then() ? make_policy<ClassChoices::Rules::then> : nullptr,

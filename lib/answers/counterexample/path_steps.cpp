@@ -1,4 +1,4 @@
-#include "answers/counterexample/path_finder.hpp"
+#include "answers/counterexample/path_run.hpp"
 
 #include <algorithm>
 
@@ -6,17 +6,7 @@
 
 namespace coordreq {
 
-PathFinder::PathFinder(const CounterexampleProblem& problem)
-    : PathRun(problem),
-      grid_(context_.abstraction->grid),
-      invariant_(grid_, problem.invariant),
-      safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
-      beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
-      inputs_(context_.spec, posts_, members()),
-      progress_(context_.spec, posts_, problem.arrival),
-      steps_(problem, posts_, inputs_, real_) {}
-
-AdmissibleInputs::Sets PathFinder::members() {
+AdmissibleInputs::Sets PathRun::members() {
   AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
   if (tubes_.beyond != nullptr) sets.safe_beyond = [this] { return &beyond_; };
   if (context_.listed) {
@@ -27,7 +17,7 @@ AdmissibleInputs::Sets PathFinder::members() {
   return sets;
 }
 
-bool PathFinder::add_step() {
+bool PathRun::add_step() {
   const std::int64_t cell = path_.cells.back();
   while (phase_ < problem_.phases.size() && !problem_.phases[phase_].holds(cell)) ++phase_;
   if (phase_ == problem_.phases.size()) return false;
@@ -41,7 +31,7 @@ bool PathFinder::add_step() {
 }
 
 /// What classes can choose in a phase; null: all agents choose together.
-const ClassChoices* PathFinder::choices_at(std::int64_t cell, PathPhase phase) {
+const ClassChoices* PathRun::choices_at(std::int64_t cell, PathPhase phase) {
   using Rules = ClassChoices::Rules;
   if (phase == PathPhase::evasive) return nullptr;
   const Rules rules = phase == PathPhase::silent       ? Rules::actions
@@ -57,7 +47,7 @@ const ClassChoices* PathFinder::choices_at(std::int64_t cell, PathPhase phase) {
 }
 
 /// One step after which one less is left. @returns whether to go on
-bool PathFinder::take_by(const CounterexamplePhase& phase) {
+bool PathRun::take_by(const CounterexamplePhase& phase) {
   const std::int64_t cell = path_.cells.back();
   const bool is_first = path_.cells.size() == 1;
   if (!is_first && phase.has_no_action && phase.has_no_action(cell)) {
@@ -76,13 +66,13 @@ bool PathFinder::take_by(const CounterexamplePhase& phase) {
   const std::int64_t left = is_first && phase.first ? phase.first(cell) : phase.steps(cell);
   const bool is_last = left == 1 && phase.after;
   const StepsFrom& steps = is_last ? phase.after : phase.steps;
-  return take(steps_.find(cell, steps, is_last ? StepFinder::kLeast : left - 1, is_choice, number()), steps,
+  return take(steps_.find(cell, steps, is_last ? StepFinder::kLeast : left - 1, is_choice, number_), steps,
               phase.choices);
 }
 
 /// How soon the world shows the arrival of a lasting goal after u from the present cell: the less, the
 /// sooner.
-std::int64_t PathFinder::soonest(std::int64_t u, std::int32_t worst) {
+std::int64_t PathRun::soonest(std::int64_t u, std::int32_t worst) {
   if (progress_.leaves_through_safe_side(u)) return -1;
   const CellPost post = posts_.post(u, tubes_);
   std::int64_t least = INT64_MAX;
@@ -96,7 +86,7 @@ std::int64_t PathFinder::soonest(std::int64_t u, std::int32_t worst) {
 
 /// The choice of agents who want to arrive soonest, or where they have none what the world chooses for them:
 /// (worst arrival, joint input).
-std::pair<std::int32_t, std::int64_t> PathFinder::choose_together(std::int64_t cell) {
+std::pair<std::int32_t, std::int64_t> PathRun::choose_together(std::int64_t cell) {
   const bool is_given = context_.spec.controller.synthesis == Synthesis::given;
   std::optional<std::pair<std::int32_t, std::int64_t>> best;
   std::vector<std::int64_t> equal;
@@ -118,7 +108,7 @@ std::pair<std::int32_t, std::int64_t> PathFinder::choose_together(std::int64_t c
 }
 
 /// One step of all agents together to the goal, as badly as it can turn out. @returns whether to go on
-bool PathFinder::take_together() {
+bool PathRun::take_together() {
   const std::int64_t cell = path_.cells.back();
   if (problem_.arrival(cell) == 0) {
     path_.end = PathEnd::arrived;
@@ -142,7 +132,7 @@ bool PathFinder::take_together() {
 }
 
 /// The last step of agents who act alone before the goal: one without progress.
-void PathFinder::lose_time() {
+void PathRun::lose_time() {
   const std::int64_t cell = path_.cells.back();
   const ClassChoices* const choices = choices_at(cell, PathPhase::approaching);
   const std::int32_t most = progress_.limit(cell, inputs_.of(cell));
@@ -165,12 +155,12 @@ void PathFinder::lose_time() {
   }
 }
 
-void PathFinder::add_choice(std::int64_t u, PathPhase phase) {
+void PathRun::add_choice(std::int64_t u, PathPhase phase) {
   path_.joint_inputs.push_back(u);
   path_.phases.push_back(phase);
 }
 
-void PathFinder::end_at_block(const CellPost& post, bool is_forbidden) {
+void PathRun::end_at_block(const CellPost& post, bool is_forbidden) {
   path_.end = PathEnd::not_allowed;
   if (is_forbidden) return;
   const bool left = post.blocked == CellPost::Blocked::left_domain;
@@ -179,13 +169,13 @@ void PathFinder::end_at_block(const CellPost& post, bool is_forbidden) {
 }
 
 /// Adds a step to the path. @returns false if the path ends with it
-bool PathFinder::take(const std::optional<StepChoice>& choice, const StepsFrom& steps, PathPhase phase) {
+bool PathRun::take(const std::optional<StepChoice>& choice, const StepsFrom& steps, PathPhase phase) {
   if (!choice) {
     path_.end = PathEnd::no_allowed_action;
     return false;
   }
   add_choice(choice->joint_input, phase);
-  set_more(choice->has_more);
+  last_.has_more = choice->has_more;
   if (choice->is_forbidden || choice->post.blocked != CellPost::Blocked::no) {
     end_at_block(choice->post, choice->is_forbidden);
     return false;
