@@ -34,10 +34,13 @@ std::string heading(const Json& simulation, const ProblemSpec& spec) {
   std::string text = fmt::format("{}, {}: {} of {}, policy {}", text_of(simulation["name"]),
                                  connection_text(simulation), count_of(number_of(simulation["runs"]), "run"),
                                  duration(simulation["steps"], simulation), text_of(simulation["policy"]));
-  if (simulation.contains("blind")) text += ", blind";
-  if (simulation.contains("silent")) {
-    const Json& silent = simulation["silent"];
-    text += ", silent " + (silent.is_null() ? "until the end" : "for " + count_of(number_of(silent), "step"));
+  for (const CountdownKind* const kind : kCountdownKinds) {
+    const CountdownOption& option = kind->option;
+    if (option.name == nullptr || !simulation.contains(option.key())) continue;
+    const Json& steps = simulation[option.key()];
+    text += fmt::format(", {}", option.key());
+    if (option.takes_steps)
+      text += steps.is_null() ? " until the end" : " for " + count_of(number_of(steps), "step");
   }
   if (is_disturbed(spec)) text += ", disturbance " + text_of(simulation["disturbance"]);
   return text + fmt::format(", seed {}\n", simulation["seed"].get<std::uint64_t>());
@@ -237,7 +240,7 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   json["connection_delay"] = spec.coordination.connection_delay;
   json["policy"] = policy_name(options.policy);
   if (options.kind != nullptr) {
-    Json& requested = json[options.kind->option.key];
+    Json& requested = json[options.kind->option.key()];
     if (!options.kind->option.takes_steps) requested = true;
     if (options.silent_steps) requested = *options.silent_steps;
   }

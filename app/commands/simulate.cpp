@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
@@ -19,7 +20,8 @@ constexpr WholeNumber<std::int64_t> kCount{1, INT32_MAX - 1};
 
 struct SimulateOptions : CommonOptions {
   std::string results;
-  bool starts_anywhere = false, is_blind = false, is_silent = false;
+  bool starts_anywhere = false;
+  std::vector<const CountdownKind*> kinds;  ///< requested
   std::optional<std::string> steps, silent_steps;
   SimulationOptions simulation;
   ProgressOptions progress;
@@ -44,8 +46,10 @@ void check_complete(const SimulateOptions& options) {
     throw UsageError("expected --from or --start, found both");
   if (!options.simulation.from && !options.starts_anywhere)
     throw UsageError("no start, expected --from NAME=VALUE,... or --start random");
-  if (options.is_silent && options.is_blind)
-    throw UsageError("expected --silent or --blind, found both", "--blind");
+  if (options.kinds.size() > 1) {
+    const char *const first = options.kinds[0]->option.name, *const second = options.kinds[1]->option.name;
+    throw UsageError(fmt::format("expected {} or {}, found both", first, second), second);
+  }
   if (!options.steps) throw UsageError("no number of steps, expected --steps N");
 }
 
@@ -86,7 +90,7 @@ ExitCode run(const SimulateOptions& args) {
   check_complete(args);
   if (args.simulation.output) check_output(args.results, *args.simulation.output, "the runs");
   SimulationOptions options = args.simulation;
-  options.kind = args.is_blind ? &kBlindKind : args.is_silent ? &kSilenceKind : nullptr;
+  if (!args.kinds.empty()) options.kind = args.kinds.front();
   args.keep_to_memory();
   const ResultsReader results(args.results, args.max_memory);
   const DynamicsSpec& dynamics = results.spec().dynamics;
@@ -124,15 +128,20 @@ Run declare_simulate(Options& options) {
                    simulation.until_goal = OneOf<bool>{{{"goal", true}}}(text, option);
                  });
   options.flag(simulation.is_lossy, "--lossy", "Lose steps with the probabilities of the network");
-  options.flag(args->is_blind, "--blind",
-               "During silence each class uses only the states that it sees, with its silent table");
-  options.option_with_or_without(
-      "--silent", "N",
-      "Follow the communication-loss rule for N steps, then the fallback rule; without N, until S is left",
-      [args = args.get()](const auto& text, const auto& /*option*/) {
-        args->is_silent = true;
-        if (!text.empty()) args->silent_steps = text;
-      });
+  for (const CountdownKind* const kind : kCountdownKinds) {
+    const CountdownOption& option = kind->option;
+    if (option.name == nullptr) continue;
+    const auto request = [args = args.get(), kind] { args->kinds.push_back(kind); };
+    if (!option.takes_steps) {
+      options.flag(option.name, option.description, request);
+      continue;
+    }
+    options.option_with_or_without(option.name, "N", option.description,
+                                   [args = args.get(), request](const auto& text, const auto& /*option*/) {
+                                     request();
+                                     if (!text.empty()) args->silent_steps = text;
+                                   });
+  }
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
   declare_progress(options, args->progress);

@@ -36,7 +36,7 @@ void check_kind(const ProblemSpec& spec, const SimulationOptions& options) {
   const CountdownOption& option = options.kind->option;
   const auto is_of_kind = [&](const AnswerPolicy& policy) { return policy.kind == options.kind; };
   if (std::ranges::none_of(answer_policies(spec), is_of_kind))
-    throw UsageError(option.missing, option.name());
+    throw UsageError(option.missing, option.name);
   const auto refuse = [](bool is_given, const char* error, const char* other) {
     if (is_given && error != nullptr) throw UsageError(error, other);
   };

@@ -235,7 +235,7 @@ void write_runs(const std::string& path, const ResultsReader& results, const Sim
                                             {"seed", options.seed}};
   if (options.kind != nullptr) {
     const CountdownOption& option = options.kind->option;
-    attributes.push_back({option.key, option.takes_steps ? options.silent_steps.value_or(-1) : 1});
+    attributes.push_back({option.key(), option.takes_steps ? options.silent_steps.value_or(-1) : 1});
   }
   const RunFields runs(results, options, simulation);
   write_fields(path, {.label = "the runs", .filetype = "coordreq-runs", .version = {1, 0}},

@@ -1,20 +1,22 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace coordreq {
 
 /// How runs of `simulate` follow a kind, if only by an option of its own.
 struct CountdownOption {
-  const char* key =
-      nullptr;  ///< the option without "--", and its member in JSON and in files of runs; null: none
+  const char* name = nullptr;  ///< with its "--"; null: no option, runs follow the kind where it holds
+  const char* description = nullptr;
   bool takes_steps = false;         ///< for how many steps the agents follow it
   const char* missing = nullptr;    ///< the error where a spec does not have the kind
   const char* no_prefer = nullptr;  ///< errors with `--policy prefer`, `--until` and `--lossy`; null: allowed
   const char* no_until = nullptr;
   const char* no_lossy = nullptr;
 
-  [[nodiscard]] std::string name() const { return std::string("--") + key; }
+  /// Its member in JSON, and its attribute in files of runs.
+  [[nodiscard]] const char* key() const { return name + 2; }
 };
 
 /// A kind of countdown: from a base set, under a choice of sets of actions, for how many steps is it safe?
@@ -40,7 +42,8 @@ inline constexpr CountdownKind kBlindKind{
     'B',
     "/blind_countdown",
     "blind layers",
-    {.key = "blind",
+    {.name = "--blind",
+     .description = "During silence each class uses only the states that it sees, with its silent table",
      .missing = "all agents see all states, expected some that do not: 'sees' in the spec",
      .no_prefer = "'prefer' reads what agents do not see, expected random or adversarial with --blind",
      .no_until = "agents with own observations only do not pursue the goal, expected --blind or --until",
@@ -52,11 +55,15 @@ inline constexpr CountdownKind kSilenceKind{
     'L',
     "/silence",
     "silence layers",
-    {.key = "silent",
+    {.name = "--silent",
+     .description =
+         "Follow the communication-loss rule for N steps, then the fallback rule; without N, until S is left",
      .takes_steps = true,
      .missing = "the spec has no communication-loss rule, expected the key 'silence'",
      .no_until =
          "agents under the communication-loss rule do not pursue the goal, expected --silent or --until",
      .no_lossy = "the network says when steps are lost, expected --silent or --lossy"}};
+
+inline constexpr std::array kCountdownKinds{&kDelayKind, &kApproachKind, &kBlindKind, &kSilenceKind};
 
 }  // namespace coordreq

@@ -112,7 +112,7 @@ struct AnswerPolicy {
 
   /// Runs follow the policy only on request, by the option of its kind, and then everywhere. `trigger` is
   /// then the countdown that agents know, by which the actions of classes are chosen.
-  [[nodiscard]] bool is_on_request() const { return kind != nullptr && kind->option.key != nullptr; }
+  [[nodiscard]] bool is_on_request() const { return kind != nullptr && kind->option.name != nullptr; }
   [[nodiscard]] const std::string& countdown() const { return trigger.empty() ? delay : trigger; }
 };
 
