@@ -10,8 +10,9 @@ namespace coordreq {
 namespace {
 
 constexpr slong kMostPower = 64;
-/// Operations in a function without kinks.
+/// Operations in a function without kinks, and in a choice between operands, which compares ends of balls.
 constexpr std::size_t kOfFunction = 12;
+constexpr std::size_t kOfChoice = 8;
 
 Arb constant_term(const ArbSeries& a) {
   return a[0];
@@ -99,11 +100,12 @@ void cosine(ArbSeries& result, const ArbSeries& a, slong length) {
   arb_poly_sin_cos_series(other.get(), result.get(), a.get(), length, kArbBits);
 }
 void hyperbolic_tangent(ArbSeries& result, const ArbSeries& a, slong length) {
+  Arb value;
+  arb_tanh(value.get(), a[0].get(), kArbBits);
+  if (length == 1) return result.assign(value);
   ArbSeries sine, cosine;
   arb_poly_sinh_cosh_series(sine.get(), cosine.get(), a.get(), length, kArbBits);
   arb_poly_div_series(result.get(), sine.get(), cosine.get(), length, kArbBits);
-  Arb value;
-  arb_tanh(value.get(), a[0].get(), kArbBits);
   result.set(0, value);
 }
 void square_root(ArbSeries& result, const ArbSeries& a, slong length) {
@@ -147,6 +149,14 @@ static_assert(number_of(Operator::modulo) == number_of(Operator::absolute) + 3,
 static_assert(number_of(Operator::negate) == number_of(Operator::add) + 8,
               "one of two numbers is missing in run_binary()");
 
+/// What is done at one node.
+std::size_t operations_in(Operator op) {
+  if (op >= Operator::negate && op < Operator::absolute) return op == Operator::negate ? 1 : kOfFunction;
+  const bool chooses = op == Operator::minimum || op == Operator::maximum || op == Operator::absolute ||
+                       op == Operator::sign || op == Operator::floor || is_comparison(op);
+  return chooses ? kOfChoice : 1;
+}
+
 const SmoothFunction& smooth_function(Operator op) {
   return kSmooth[number_of(op) - number_of(Operator::negate)];
 }
@@ -159,9 +169,7 @@ ExpressionSeries::ExpressionSeries(const Program& program)
   for (std::size_t n = 0; n < program.nodes.size(); ++n) {
     const Program::Node& node = program.nodes[n];
     if (node.op == Operator::constant) values_[n].assign(Arb(program.constants[node.a]));
-    const bool is_function =
-        is_unary_function(node.op) && node.op != Operator::negate && node.op < Operator::absolute;
-    const std::size_t operations = is_function ? kOfFunction : 1;
+    const std::size_t operations = operations_in(node.op);
     operations_ += operations;
     if (!is_condition(node.op) && !is_extended(n)) repeated_ += operations;
   }
@@ -354,9 +362,9 @@ void ExpressionSeries::run_choice(std::size_t n, bool minimum, slong length) {
     return;
   }
   const Arb first = constant_term(a), second = constant_term(b);
-  if (arb_lt(first.get(), second.get()) != 0 || arb_gt(first.get(), second.get()) != 0) {
-    const bool a_counts = (arb_lt(first.get(), second.get()) != 0) == minimum;
-    result = a_counts ? a : b;
+  const bool is_less = arb_lt(first.get(), second.get()) != 0;
+  if (is_less || arb_gt(first.get(), second.get()) != 0) {
+    result = is_less == minimum ? a : b;
     return;
   }
   Arb value;

@@ -14,6 +14,7 @@ slong order_for(double tolerance) {
 
 constexpr int kPicardTries = 30;
 constexpr Work kOfPicard = 12;  ///< operations of a try, a state, beside its derivative
+constexpr Work kOfLimit = 16;   ///< and more where it may be held at a limit
 constexpr std::size_t kMostKnown = 1 << 14;
 
 Arb from_zero(const Arb& duration) {
@@ -60,7 +61,10 @@ std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const A
       tube.change[i] = field.value(i, tube.box);
       if (!tube.change[i].is_finite()) return std::nullopt;
       const bool may_be_held = !limits.empty() && touches(limits[i], tube.box[slot]);
-      if (may_be_held) tube.change[i] = hull(tube.change[i], Arb());
+      if (may_be_held) {
+        field.add_work(kOfLimit);
+        tube.change[i] = hull(tube.change[i], Arb());
+      }
       next[i] = start[slot] + time * tube.change[i];
       if (may_be_held) next[i] = within(limits[i], next[i]);
       inside = inside && tube.box[slot].holds(next[i]);

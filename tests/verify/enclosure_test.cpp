@@ -303,5 +303,20 @@ TEST(Enclosure, WhatIsRememberedCostsAsMuchAsWhatIsNot) {
   EXPECT_EQ(first.work, second.work);
 }
 
+/// x' = 1 from 3 on, with a limit above that it may reach, that it does not, or without one.
+TEST(Enclosure, AStateThatMayBeHeldAtALimitCostsMore) {
+  const SystemSpec spec = spec_of("1", "0");
+  const auto work = [&](const std::optional<Arb>& above) {
+    SeriesField field(spec, influences_on(spec, 0), {0});
+    ArbBox box(spec.slot_count());
+    box[0] = Arb(3.0);
+    EXPECT_TRUE(picard_tube(field, box, Arb(0.5), {StopLimits{.below = {}, .above = above}}));
+    return field.work();
+  };
+  const Work free = work(std::nullopt);
+  EXPECT_EQ(work(Arb(100.0)), free);
+  EXPECT_GE(work(Arb(3.25)), free + 32);
+}
+
 }  // namespace
 }  // namespace coordreq

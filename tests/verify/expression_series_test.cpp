@@ -79,6 +79,16 @@ TEST(ExpressionSeries, EveryFunctionIsExtendedToWhatItIs) {
   }
 }
 
+TEST(ExpressionSeries, AChoiceCountsAsMoreThanASumAndAFunctionAsMoreThanAChoice) {
+  const auto operations = [](Operator op) { return ExpressionSeries(program_of(op)).operations(); };
+  EXPECT_EQ(operations(Operator::add), 3U);
+  EXPECT_EQ(operations(Operator::negate), 3U);
+  for (const Operator op : {Operator::minimum, Operator::maximum, Operator::absolute, Operator::floor})
+    EXPECT_EQ(operations(op), 10U) << spelling(op);
+  for (const Operator op : {Operator::sine, Operator::hyperbolic_tangent, Operator::square_root})
+    EXPECT_EQ(operations(op), 14U) << spelling(op);
+}
+
 TEST(ExpressionSeries, OfARangeEveryFunctionHoldsTheValuesInIt) {
   for (const NumberFunction& f : number_functions()) {
     SCOPED_TRACE(f.spelling);
