@@ -1,6 +1,7 @@
 #include "answers/analysis_context.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <set>
 
 #include "answers/invariance/safe_set.hpp"
@@ -53,6 +54,14 @@ std::vector<AbstractAgent> find_agents_alike(const AnalysisContext& context) {
     inputs.push_back(input_class.inputs());
   const std::vector<AbstractAgent> all = abstract_agents(*context.abstraction, inputs);
   return find_like_agents(*context.abstraction, all, safe_sets(context));
+}
+
+/// AnalysisContext::count() by all threads.
+std::int64_t count_by(ThreadTeam& team, const AnalysisContext& context, const CellSet& set) {
+  std::atomic<std::int64_t> total = 0;
+  for_each_local_row(team, context.shared_rows(), set.rows(), 256,
+                     [&](ThreadTeam::Range rows, int) { total += set.count(rows.begin, rows.end); });
+  return sum_of_all(context.shared_rows(), total);
 }
 
 /// Adds the cells of G, of a goal that ends the task, in some rows where S is known.
@@ -126,11 +135,11 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   context.tiles = Tiles::find(*context.engine, *context.hull, context.safe, &team);
   if (context.ranks == nullptr && context.pairs.admissible() == nullptr)
     context.like_agents = find_agents_alike(context);
-  context.safe_cells = context.count(context.safe);
+  context.safe_cells = count_by(team, context, context.safe);
   if (context.tiles && context.terminal)
     context.tiles_with_terminal = context.tiles->refined(
         context.tiles->tables(), number_rows(*context.terminal, context.shared_rows()));
-  context.terminal_cells = context.terminal ? context.count(*context.terminal) : 0;
+  context.terminal_cells = context.terminal ? count_by(team, context, *context.terminal) : 0;
   context.order.emplace(abstraction.grid);
 }
 

@@ -25,27 +25,11 @@ Wide raised(Narrow level) {
   return static_cast<Wide>(LevelRows<Wide>::kTop - (LevelRows<Narrow>::kTop - level));
 }
 
-/// Calls `change(row, cells)` for every row held, with a copy of its cells, and puts them back into `levels`.
-template <class Level, class Change>
-void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& change) {
-  // Rows that are interned are put one after the other.
-  const std::int64_t grain = levels.is_interned() ? levels.rows() : 256;
-  for_each_held_row(team, levels.share(), levels.rows(), grain, [&](ThreadTeam::Range range, int) {
-    std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      const Level* const row = levels.row(r);
-      std::copy(row, row + levels.row_length(), cells.begin());
-      change(r, cells.data());
-      levels.put(r, cells.data());
-    }
-  });
-}
-
 template <class Wide, class Narrow>
 LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow, bool rises,
                         ThreadTeam& team) {
   LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts(), narrow.is_interned());
-  change_rows(levels, team, [&](std::int64_t r, Wide* cells) {
+  put_rows(levels, team, [&](std::int64_t r, Wide* cells) {
     const Narrow* source = narrow.row(r);
     std::transform(source, source + levels.row_length(), cells,
                    rises ? raised<Wide, Narrow> : converted<Wide, Narrow>);
@@ -56,8 +40,9 @@ LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow
 template <class Level>
 void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team) {
   bound.visit([&]<class Other>(const LevelRows<Other>& other) {
-    change_rows(levels, team, [&](std::int64_t r, Level* cells) {
-      std::transform(cells, cells + levels.row_length(), other.row(r), cells,
+    put_rows(levels, team, [&](std::int64_t r, Level* cells) {
+      const Level* const row = levels.row(r);
+      std::transform(row, row + levels.row_length(), other.row(r), cells,
                      [](Level level, Other least) { return std::min(level, converted<Level>(least)); });
     });
   });
@@ -76,10 +61,12 @@ void copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels, 
         for (std::int64_t k = range.begin; k < range.end; ++k)
           first[static_cast<std::size_t>(k)] = symmetry.canonical_of(begin + k);
       });
-      for (std::int64_t k = 0; k < count; ++k) {
-        if (const std::int64_t row = first[static_cast<std::size_t>(k)]; row != begin + k)
-          static_cast<void>(levels.copy_row(row, begin + k));
-      }
+      team.for_each(count, levels.is_interned() ? count : kRowsAtOnce, [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          if (const std::int64_t row = first[static_cast<std::size_t>(k)]; row != begin + k)
+            static_cast<void>(levels.copy_row(row, begin + k));
+        }
+      });
     }
   }
 }

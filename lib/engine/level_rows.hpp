@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "base/requires.hpp"
+#include "base/thread_team.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/interner.hpp"
 #include "engine/level_kernels.hpp"
+#include "engine/limits.hpp"
 #include "engine/list_numbers.hpp"
 #include "engine/row_shape.hpp"
 #include "ranks/row_share.hpp"
@@ -276,5 +278,39 @@ class LevelRows {
   Interner interner_;
   std::vector<Level> lanes_;  ///< the row being put, with its margins; only if rows are interned
 };
+
+/// Gives each row held the cells that `fill(row, cells)` writes, which may be whole blocks beyond the row and
+/// read that row of `levels`. All threads do the work; then one puts the rows that are interned, in ascending
+/// order.
+template <class Level, class Fill>
+void put_rows(LevelRows<Level>& levels, ThreadTeam& team, const Fill& fill) {
+  const std::int64_t width = levels.stride() + static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
+  if (!levels.is_interned()) {
+    return for_each_held_row(team, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+      std::vector<Level> cells(static_cast<std::size_t>(width));
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
+        fill(r, cells.data());
+        levels.put(r, cells.data());
+      }
+    });
+  }
+  const std::int64_t most = std::clamp<std::int64_t>(kMostLevelsOfBatch / width, 1, levels.rows());
+  std::vector<Level> lanes(static_cast<std::size_t>(most * width));
+  std::vector<std::uint64_t> ready(static_cast<std::size_t>(most));
+  for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
+    for (std::int64_t begin = run.begin; begin < run.end; begin += most) {
+      const std::int64_t count = std::min(most, run.end - begin);
+      const auto lanes_of = [&](std::int64_t k) { return lanes.data() + k * width; };
+      team.for_each(count, count / (kTasksOfThread * team.size()), [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          fill(begin + k, lanes_of(k) + levels.margins().before);
+          ready[static_cast<std::size_t>(k)] = levels.make_ready(lanes_of(k));
+        }
+      });
+      for (std::int64_t k = 0; k < count; ++k)
+        levels.put_ready(begin + k, lanes_of(k), ready[static_cast<std::size_t>(k)]);
+    }
+  }
+}
 
 }  // namespace coordreq

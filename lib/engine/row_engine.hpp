@@ -117,8 +117,10 @@ class RowEngine {
   [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team,
                                              bool interned = false) const {
     auto levels = make_levels<Level>(posts(), interned);
-    for_each_held_row(team, share_, levels.rows(), interned ? levels.rows() : 256,
-                      [&](ThreadTeam::Range range, int) { levels.assign(set, range.begin, range.end); });
+    const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
+    put_rows(levels, team, [&](std::int64_t r, Level* cells) {
+      kernels.spread(set.row(r).data(), cells, static_cast<std::size_t>(row_length()));
+    });
     return levels;
   }
 

@@ -15,7 +15,7 @@ using Numbers = Tiles::Numbers;
 using Kind = RowSegment::Kind;
 
 /// Tiles in the sample that shows whether enough of them are equal.
-constexpr std::int64_t kSample = 4096;
+constexpr std::int64_t kSample = 4096, kSampleAtOnce = 32;
 /// If fewer tiles than this fraction are different, looking up pays.
 constexpr double kMostDifferent = 0.5;
 /// Fewer rows are computed sooner than compared.
@@ -175,7 +175,7 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content, ThreadTeam
 
 /// The fraction of different tiles in a sample, which is drawn with equal distances that have no factor in
 /// common with a dimension: else all of it could have one index there.
-double Tiles::fraction_different(const Numbers& content) const {
+double Tiles::fraction_different(const Numbers& content, ThreadTeam* team) const {
   const Numbers of_tiles = contents_of_tiles(content);
   const auto has_common_factor = [this](std::int64_t step) {
     const std::vector<GridDimension>& dimensions = engine_->grid().dimensions();
@@ -184,20 +184,26 @@ double Tiles::fraction_different(const Numbers& content) const {
   };
   std::int64_t step = std::max<std::int64_t>(1, (local_tiles_.end - local_tiles_.begin) / kSample);
   while (has_common_factor(step)) ++step;
-  ListNumbers<std::uint32_t> lists;
-  Scratch scratch;
-  Numbers list;
-  std::int64_t drawn = 0;
-  for (std::int64_t tile = local_tiles_.begin; tile < local_tiles_.end; tile += step, ++drawn) {
-    list.clear();
-    add_tables(tile, list);
-    const RowPosition position(engine_->grid(), tile * rows_);
-    add_contents(
-        position, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch,
-        list);
-    static_cast<void>(lists.number(list));
-  }
-  return static_cast<double>(lists.size()) / static_cast<double>(drawn);
+  Numbers drawn(static_cast<std::size_t>((local_tiles_.end - local_tiles_.begin + step - 1) / step));
+  SharedListNumbers lists;
+  for_each(team, std::ssize(drawn), kSampleAtOnce, [&](ThreadTeam::Range range, int) {
+    Scratch scratch;
+    Numbers list;
+    for (std::int64_t k = range.begin; k < range.end; ++k) {
+      const std::int64_t tile = local_tiles_.begin + k * step;
+      list.clear();
+      add_tables(tile, list);
+      const RowPosition position(engine_->grid(), tile * rows_);
+      add_contents(
+          place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch,
+          list);
+      drawn[static_cast<std::size_t>(k)] = lists.number(list);
+    }
+  });
+  const auto all = static_cast<double>(drawn.size());
+  std::ranges::sort(drawn);
+  drawn.erase(std::ranges::unique(drawn).begin(), drawn.end());
+  return static_cast<double>(drawn.size()) / all;
 }
 
 std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, std::size_t leading) {
@@ -220,7 +226,7 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
     Tiles tiles(engine, hull, leading);
     if (tiles.local_tiles().end - tiles.local_tiles().begin < kFewRows) continue;
     if (local.begin % tiles.rows() != 0 || local.end % tiles.rows() != 0) continue;
-    const double fraction = tiles.fraction_different(content);
+    const double fraction = tiles.fraction_different(content, team);
     if (fraction >= least) continue;
     least = fraction;
     best = std::move(tiles);

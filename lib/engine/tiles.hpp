@@ -96,7 +96,7 @@ class Tiles {
   void add_tables(std::int64_t tile, Numbers& list) const;
   void number_tables(ThreadTeam* team);
   [[nodiscard]] Numbers contents_of_tiles(const Numbers& content) const;
-  [[nodiscard]] double fraction_different(const Numbers& content) const;
+  [[nodiscard]] double fraction_different(const Numbers& content, ThreadTeam* team) const;
 
   const RowEngine* engine_;
   const RowHull* hull_;

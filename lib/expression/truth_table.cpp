@@ -203,6 +203,8 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
   if (!proven.empty()) {
     bits_ = std::move(proven);
     refuted = proven_by_atoms(condition, axes, true, team);
+  } else {
+    bits_.assign(static_cast<std::size_t>(rows_ * words_per_row()), 0);
   }
   std::vector<std::vector<FastRanges>> kept(axes.size());
   if (along_in_use_) kept[along] = kept_ranges(axes[along], rows_);
@@ -234,7 +236,6 @@ void TruthTable::lay_out(const Program& condition, std::span<const ConditionAxis
     strides_[used[i]] = rows_;
     rows_ *= counts_[used[i]];
   }
-  bits_.assign(static_cast<std::size_t>(rows_ * words_per_row()), 0);
 }
 
 /// Every bit of the row is known: set already, or refuted.
@@ -275,7 +276,7 @@ std::vector<Word> TruthTable::proven_by_atoms(const Program& condition, std::spa
   for (const Program& atom : found->atoms)
     tables.emplace_back(atom, axes, along_, is_not_proven, team, Question::everywhere);
   const auto words = static_cast<std::size_t>(words_per_row());
-  std::vector<Word> result(bits_.size(), 0);
+  std::vector<Word> result(static_cast<std::size_t>(rows_) * words, 0);
   team.for_each(rows_, 256, [&](ThreadTeam::Range range, int) {
     std::vector<std::vector<Word>> values(found->nodes.size());
     std::vector<std::span<const Word>> rows, before;

@@ -145,5 +145,27 @@ TEST(LevelRows, MarkCellsThatLeaveThroughUnsafeEnds) {
   EXPECT_EQ(bits[0], Word{1} << 1 | Word{1} << 8 | Word{1} << 15);
 }
 
+TEST(LevelRows, PutByThreadsAreThoseThatOnePuts) {
+  // More than are worked out at once, and few different ones.
+  constexpr std::int64_t kRows = 20'000, kCells = 3;
+  const auto fill = [](std::int64_t r, std::uint8_t* cells) {
+    for (std::int64_t c = 0; c < kCells; ++c) cells[c] = static_cast<std::uint8_t>((r * r + c) % 7);
+  };
+  const RowShape shape{{{kCells, 1, {2, 4}, {Outside::saturate, Outside::safe}}}};
+  for (const bool is_interned : {false, true}) {
+    ByteRows expected(kRows, shape, is_interned);
+    for (std::int64_t r = 0; r < kRows; ++r)
+      expected.change_row(r, [&](std::uint8_t* cells) { fill(r, cells); });
+    for (const int threads : {1, 3}) {
+      ByteRows levels(kRows, shape, is_interned);
+      ThreadTeam team(threads);
+      put_rows(levels, team, fill);
+      EXPECT_EQ(levels.slots(), expected.slots());
+      for (std::int64_t r = 0; r < kRows; ++r)
+        ASSERT_TRUE(std::equal(levels.row(r) - 2, levels.row(r) + 7, expected.row(r) - 2)) << r;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace coordreq

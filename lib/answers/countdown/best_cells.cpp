@@ -19,8 +19,8 @@ bool is_arbitrary(const GridDimension& dimension, bool above) {
 
 /// The sides that the best cells in some rows touch.
 struct Touched {
-  std::vector<std::int64_t> sides;  ///< [2 * dimension + above] number of cells at the side
-  std::int64_t inside = 0;          ///< number of cells at no side
+  std::vector<std::int64_t> sides;  ///< [2 * dimension + above] more than 0: some cell is at the side
+  std::int64_t inside = 0;          ///< more than 0: some cell is at no side
 
   void add(const UniformGrid& grid, std::int64_t cell) {
     bool is_inside = true;
@@ -62,6 +62,20 @@ const Level* find_level(const Level* begin, const Level* end, std::int64_t level
   }
 }
 
+/// Calls `visit(first, end)` for each run of cells in a row that has a level: where it stands first, and
+/// where the run ends. The row is looked through as a whole first: most have none, and levels in gaps do no
+/// harm.
+template <class Level, class Visit>
+void for_each_run_with(std::int64_t level, const LevelRows<Level>& levels, const Level* row,
+                       const Visit& visit) {
+  const Level* const last = row + levels.row_length();
+  if (find_level(row, last, level) == last) return;
+  levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+    const Level* const end = row + lane + count;
+    if (const Level* const first = find_level(row + lane, end, level); first != end) visit(first, end);
+  });
+}
+
 /// Numbers of cells in the order of the spec.
 class SpecNumbers {
  public:
@@ -101,9 +115,8 @@ std::int64_t first_cell(const AnalysisContext& context, const DelayLayers& layer
       for (std::int64_t r = range.begin; r < range.end; ++r) {
         const auto* const row = levels.row(r);
         // Along a run numbers rise, so that the first cell of a run is enough.
-        levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-          const auto* const at = find_level(row + lane, row + lane + count, level);
-          if (at != row + lane + count) least = std::min(least, numbers.of(r * row_length + (at - row)));
+        for_each_run_with(level, levels, row, [&](const auto* at, const auto*) {
+          least = std::min(least, numbers.of(r * row_length + (at - row)));
         });
       }
     });
@@ -143,10 +156,12 @@ std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const 
     // A single process may stop at the first best cell that is inside.
     for (std::int64_t r = begin; r < end && (context.share || touched.inside == 0); ++r) {
       const auto* const row = levels.row(r);
-      levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-        for (const auto* at = std::find(row + lane, row + lane + count, last); at != row + lane + count;
-             at = std::find(at + 1, row + lane + count, last))
-          touched.add(grid, r * grid.row_length() + (at - row));
+      for_each_run_with(last, levels, row, [&](const auto* first, const auto* run_end) {
+        // Those between the ends of a run touch the same sides: one of them is enough, the first or the
+        // second.
+        for (const auto* const at : {first, find_level(first + 1, run_end, last), run_end - 1}) {
+          if (at != run_end && *at == last) touched.add(grid, r * grid.row_length() + (at - row));
+        }
       });
     }
   });
