@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <utility>
 
 #include "spec/problem_spec.hpp"
 
@@ -25,6 +25,9 @@ void write_whole(const hdf5::Handle& dataset, const std::string& path, std::uint
       "write the dataset " + path);
 }
 
+/// Chunks are filled in pieces of so many bytes at most.
+constexpr std::size_t kPieceBytes = std::size_t{64} << 10U;
+
 hdf5::Storage storage_of(const ChunkLayout& layout, ElementType type) {
   hdf5::Storage storage;
   storage.chunk.assign(layout.chunk_shape().begin(), layout.chunk_shape().end());
@@ -37,14 +40,17 @@ hdf5::Storage storage_of(const ChunkLayout& layout, ElementType type) {
 
 double ArrayWriter::bytes(double longest, int threads) {
   constexpr double kUsualPacking = 0.25;
-  constexpr double kCopies = 3.5;  // of a chunk: filled, shuffled, packed, and what filling takes
+  constexpr double kCopies = 1.5;  // of a chunk: shuffled, and packed
+  constexpr double kPieces = 2;    // filled, and what filling takes
   const double chunk = ChunkLayout::largest_chunk(longest);
   if (chunk == 0) return 0;
   const double chunks = std::ceil(longest / chunk);
   const double batch = std::min(chunks, static_cast<double>(kChunksPerThread) * threads);
   // If an array has few chunks, those of the next array go to other threads.
   const double busy = std::min<double>(threads, 4 * chunks);
-  return busy * (kCopies * chunk + ChunkCodec::kBytes) + kUsualPacking * batch * chunk;
+  const double known = std::min(chunks, static_cast<double>(KnownChunks::most(threads)));
+  return busy * (kCopies * chunk + kPieces * kPieceBytes + ChunkCodec::kBytes) +
+         (known + kUsualPacking * batch) * chunk;
 }
 
 ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, RankChunks* ranks)
@@ -52,9 +58,8 @@ ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, Ran
       driver_(driver),
       ranks_(ranks),
       packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {
-  const auto known = std::make_shared<KnownChunks>();
-  for (int worker = 0; worker < team.size(); ++worker)
-    scratch_.push_back({.codec = ChunkCodec(known), .raw = {}});
+  for (ChunkCodec& codec : ChunkCodec::for_threads(team.size()))
+    scratch_.push_back({.codec = std::move(codec), .raw = {}});
 }
 
 hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& path,
@@ -127,11 +132,15 @@ void ArrayWriter::pack_batch(const ChunkLayout& layout, const ResultArray& array
     Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
     for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
       const ChunkLayout::Segment segment = layout.segment(first + i);
-      scratch.raw.resize(layout.chunk_elements() * size);
-      array.fill(segment.begin, segment.count, scratch.raw.data());
-      const auto padding = scratch.raw.begin() + static_cast<std::ptrdiff_t>(segment.count * size);
-      std::fill(padding, scratch.raw.end(), std::byte{0});
-      scratch.codec.pack(scratch.raw, size, packed_[i]);
+      scratch.codec.begin(layout.chunk_elements() * size, size);
+      for (std::uint64_t done = 0; done < segment.count;) {
+        const std::uint64_t piece = std::min<std::uint64_t>(kPieceBytes / size, segment.count - done);
+        scratch.raw.resize(piece * size);
+        array.fill(segment.begin + done, piece, scratch.raw.data());
+        scratch.codec.put(scratch.raw);
+        done += piece;
+      }
+      scratch.codec.finish(packed_[i]);
     }
   });
 }

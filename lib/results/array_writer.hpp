@@ -17,8 +17,8 @@ namespace coordreq {
 /// Writes arrays as datasets: small ones as they are, others in compressed chunks that are filled and packed
 /// by all threads and written in order by the caller's.
 ///
-/// Memory: about 3 MiB a thread for the chunk at work, 8 MiB for those that its codec remembers, and the
-/// packed chunks of a batch, at most kChunksPerThread MiB a thread.
+/// Memory: about 1.5 MiB a thread for the chunk at work, those that are remembered (KnownChunks::most), and
+/// the packed chunks of a batch, at most kChunksPerThread MiB a thread.
 class ArrayWriter {
  public:
   static constexpr std::size_t kChunksPerThread = 4;

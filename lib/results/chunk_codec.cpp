@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <iterator>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -19,11 +19,26 @@ namespace {
 
 // The size is a constant here because the compiler then makes vector code of the inner loop.
 template <std::size_t size>
-void shuffle_fixed(std::span<const std::byte> raw, std::span<std::byte> shuffled) {
+void shuffle_fixed(std::span<const std::byte> raw, std::byte* shuffled, std::size_t stride) {
   const std::size_t count = raw.size() / size;
   for (std::size_t byte = 0; byte < size; ++byte) {
-    std::byte* out = shuffled.data() + byte * count;
+    std::byte* out = shuffled + byte * stride;
     for (std::size_t i = 0; i < count; ++i) out[i] = raw[i * size + byte];
+  }
+}
+
+/// Byte after byte of all elements, each `stride` bytes after the one before.
+void shuffle(std::span<const std::byte> raw, std::size_t element_size, std::byte* shuffled,
+             std::size_t stride) {
+  switch (element_size) {
+    case 2:
+      return shuffle_fixed<2>(raw, shuffled, stride);
+    case 4:
+      return shuffle_fixed<4>(raw, shuffled, stride);
+    case 8:
+      return shuffle_fixed<8>(raw, shuffled, stride);
+    default:
+      std::ranges::copy(raw, shuffled);
   }
 }
 
@@ -57,16 +72,7 @@ std::uint64_t mark_of(std::span<const std::byte> bytes) {
 
 void shuffle_bytes(std::span<const std::byte> raw, std::size_t element_size, std::span<std::byte> shuffled) {
   REQUIRES(raw.size() == shuffled.size() && raw.size() % element_size == 0);
-  switch (element_size) {
-    case 2:
-      return shuffle_fixed<2>(raw, shuffled);
-    case 4:
-      return shuffle_fixed<4>(raw, shuffled);
-    case 8:
-      return shuffle_fixed<8>(raw, shuffled);
-    default:
-      return shuffle_fixed<1>(raw, shuffled);
-  }
+  shuffle(raw, element_size, shuffled.data(), raw.size() / element_size);
 }
 
 bool unpack_chunk(std::span<const std::byte> packed, std::size_t bytes, bool deflated,
@@ -110,77 +116,86 @@ ChunkCodec::ChunkCodec(std::shared_ptr<KnownChunks> known)
   }
 }
 
-bool KnownChunks::find(std::span<const std::byte> raw, std::size_t element_size,
-                       std::vector<std::byte>& packed) const {
-  const std::uint64_t mark = mark_of(raw) ^ element_size;
-  std::vector<std::shared_ptr<const Known>> alike;
-  {
-    const std::lock_guard lock(mutex_);
-    std::ranges::copy_if(known_, std::back_inserter(alike), [&](const std::shared_ptr<const Known>& known) {
-      return known->mark == mark && known->element_size == element_size;
-    });
-  }
-  for (const std::shared_ptr<const Known>& shared : alike) {
-    const Known& known = *shared;
-    if (known.raw.size() != raw.size()) continue;
-    if (!raw.empty() && std::memcmp(known.raw.data(), raw.data(), raw.size()) != 0) continue;
-    packed = known.packed;
-    return true;
-  }
-  return false;
+std::vector<ChunkCodec> ChunkCodec::for_threads(int threads) {
+  const auto known = std::make_shared<KnownChunks>(threads);
+  std::vector<ChunkCodec> codecs;
+  for (int thread = 0; thread < threads; ++thread) codecs.emplace_back(known);
+  return codecs;
 }
 
-void KnownChunks::add(std::span<const std::byte> raw, std::size_t element_size,
-                      std::span<const std::byte> packed) {
-  auto known = std::make_shared<Known>();
-  known->mark = mark_of(raw) ^ element_size;
-  known->element_size = element_size;
-  known->raw.assign(raw.begin(), raw.end());
-  known->packed.assign(packed.begin(), packed.end());
+bool KnownChunks::find(std::span<const std::byte> bytes, std::vector<std::byte>& packed) const {
+  const std::uint64_t mark = mark_of(bytes);
+  const std::shared_lock lock(mutex_);
+  const auto known = std::ranges::find_if(known_, [&](const Known& one) {
+    return one.mark == mark && one.bytes.size() == bytes.size() &&
+           (bytes.empty() || std::memcmp(one.bytes.data(), bytes.data(), bytes.size()) == 0);
+  });
+  if (known == known_.end()) return false;
+  packed = known->packed;
+  return true;
+}
+
+void KnownChunks::add(std::vector<std::byte>& bytes, std::span<const std::byte> packed) {
+  Known known{.mark = mark_of(bytes), .bytes = {}, .packed = {packed.begin(), packed.end()}};
   const std::lock_guard lock(mutex_);
-  if (known_.size() < kMost) known_.emplace_back();
-  known_[oldest_] = std::move(known);
-  oldest_ = (oldest_ + 1) % kMost;
+  if (known_.size() < most_) known_.emplace_back();
+  known.bytes.swap(bytes);
+  std::swap(known_[oldest_], known);
+  bytes.swap(known.bytes);
+  oldest_ = (oldest_ + 1) % most_;
+}
+
+void ChunkCodec::begin(std::size_t bytes, std::size_t element_size) {
+  shuffled_.assign(bytes, std::byte{0});
+  element_size_ = element_size;
+  elements_ = 0;
+}
+
+void ChunkCodec::put(std::span<const std::byte> raw) {
+  const std::size_t all = shuffled_.size() / element_size_, count = raw.size() / element_size_;
+  REQUIRES(raw.size() % element_size_ == 0 && elements_ + count <= all);
+  shuffle(raw, element_size_, shuffled_.data() + elements_, all);
+  elements_ += count;
+}
+
+void ChunkCodec::finish(std::vector<std::byte>& packed) {
+  if (known_->find(shuffled_, packed)) return;
+  compress(packed);
+  known_->add(shuffled_, packed);
 }
 
 void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
                       std::vector<std::byte>& packed) {
-  if (known_->find(raw, element_size, packed)) return;
-  compress(raw, element_size, packed);
-  known_->add(raw, element_size, packed);
+  begin(raw.size(), element_size);
+  put(raw);
+  finish(packed);
 }
 
-void ChunkCodec::compress(std::span<const std::byte> raw, std::size_t element_size,
-                          std::vector<std::byte>& packed) {
-  if (element_size > 1) {
-    shuffled_.resize(raw.size());
-    shuffle_bytes(raw, element_size, shuffled_);
-    raw = shuffled_;
-  }
+void ChunkCodec::compress(std::vector<std::byte>& packed) {
   // zlib's header and checksum stand around a raw stream: libdeflate's checksum is many times as fast.
   constexpr std::array<std::byte, 2> kHeader = {std::byte{0x78}, std::byte{0x01}};
   constexpr std::size_t kChecksum = 4;
-  const std::size_t room = deflateBound(stream_.get(), raw.size());
+  const std::size_t room = deflateBound(stream_.get(), shuffled_.size());
   if (scratch_size_ < room) {
     scratch_ = std::make_unique_for_overwrite<std::byte[]>(room);
     scratch_size_ = room;
   }
-  const std::size_t size = deflate_raw(raw);
+  const std::size_t size = deflate_raw();
   packed.assign(kHeader.begin(), kHeader.end());
   packed.insert(packed.end(), scratch_.get(), scratch_.get() + size);
-  const std::uint32_t checksum = libdeflate_adler32(1, raw.data(), raw.size());
+  const std::uint32_t checksum = libdeflate_adler32(1, shuffled_.data(), shuffled_.size());
   for (std::size_t i = kChecksum; i-- > 0;) packed.push_back(static_cast<std::byte>(checksum >> (8 * i)));
 }
 
-std::size_t ChunkCodec::deflate_raw(std::span<const std::byte> raw) {
+std::size_t ChunkCodec::deflate_raw() {
   z_stream& stream = *stream_;
   deflateReset(&stream);
   stream.next_out = reinterpret_cast<Bytef*>(scratch_.get());
   stream.avail_out = static_cast<uInt>(scratch_size_);
   stream.avail_in = 0;
-  deflateParams(&stream, kDeflateLevel, has_long_runs(raw) ? Z_RLE : Z_DEFAULT_STRATEGY);
-  stream.next_in = reinterpret_cast<const Bytef*>(raw.data());
-  stream.avail_in = static_cast<uInt>(raw.size());
+  deflateParams(&stream, kDeflateLevel, has_long_runs(shuffled_) ? Z_RLE : Z_DEFAULT_STRATEGY);
+  stream.next_in = reinterpret_cast<const Bytef*>(shuffled_.data());
+  stream.avail_in = static_cast<uInt>(shuffled_.size());
   if (deflate(&stream, Z_FINISH) != Z_STREAM_END) throw std::logic_error("a chunk is packed in part");
   return stream.total_out;
 }

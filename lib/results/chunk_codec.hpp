@@ -1,9 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
+#include <shared_mutex>
 #include <span>
 #include <vector>
 
@@ -14,25 +15,34 @@ namespace coordreq {
 /// The level named in the filter pipeline of the file; readers do not need it.
 inline constexpr int kDeflateLevel = 1;
 
-/// The last chunks that were packed, for several threads.
+/// The last chunks that were packed, for several threads: their bytes as they are compressed, and what became
+/// of them.
 class KnownChunks {
  public:
-  /// Replaces `packed` by what became of an equal chunk. @returns false if none is known
-  bool find(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed) const;
-  void add(std::span<const std::byte> raw, std::size_t element_size, std::span<const std::byte> packed);
+  /// How many are remembered: fewer where many threads have a chunk each, so that sixteen need little more
+  /// memory than two.
+  [[nodiscard]] static constexpr std::size_t most(int threads) {
+    return static_cast<std::size_t>(std::clamp(kMostBuffers - threads, 2, 8));
+  }
+
+  explicit KnownChunks(int threads) : most_(most(threads)) {}
+
+  /// Replaces `packed` by what became of equal bytes. @returns false if none are known
+  bool find(std::span<const std::byte> bytes, std::vector<std::byte>& packed) const;
+  /// Takes the bytes, and leaves the memory of those that are forgotten.
+  void add(std::vector<std::byte>& bytes, std::span<const std::byte> packed);
 
  private:
-  static constexpr std::size_t kMost = 8;
-  /// Never changed once it is known, so that threads may compare while others forget it.
+  static constexpr int kMostBuffers = 18;
   struct Known {
     std::uint64_t mark = 0;
-    std::size_t element_size = 0;
-    std::vector<std::byte> raw;
+    std::vector<std::byte> bytes;
     std::vector<std::byte> packed;
   };
 
-  mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<const Known>> known_;
+  std::size_t most_;
+  mutable std::shared_mutex mutex_;
+  std::vector<Known> known_;
   std::size_t oldest_ = 0;  ///< of them, the next to be forgotten
 };
 
@@ -50,22 +60,32 @@ class ChunkCodec {
   /// Memory of a compressor, beside its chunks.
   static constexpr double kBytes = 256.0 * 1024;
 
-  explicit ChunkCodec(std::shared_ptr<KnownChunks> known = std::make_shared<KnownChunks>());
+  explicit ChunkCodec(std::shared_ptr<KnownChunks> known = std::make_shared<KnownChunks>(1));
+  /// One for each of some threads; they know the same chunks.
+  [[nodiscard]] static std::vector<ChunkCodec> for_threads(int threads);
 
-  /// Replaces `packed` by the zlib stream of `raw`, a whole number of elements.
+  /// Begins a chunk of so many bytes, a whole number of elements, all 0.
+  void begin(std::size_t bytes, std::size_t element_size);
+  /// Puts some elements after those put before: so nobody has to hold the chunk as it is unshuffled.
+  void put(std::span<const std::byte> raw);
+  /// Replaces `packed` by the zlib stream of the chunk.
   /// @throws std::bad_alloc
+  void finish(std::vector<std::byte>& packed);
+  /// All of this, for a chunk that is at hand.
   void pack(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
 
  private:
-  void compress(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
+  void compress(std::vector<std::byte>& packed);
   /// To scratch_, without header and checksum. @returns how many bytes
-  std::size_t deflate_raw(std::span<const std::byte> raw);
+  std::size_t deflate_raw();
 
   struct Free {
     void operator()(z_stream_s* stream) const;
   };
   std::unique_ptr<z_stream_s, Free> stream_;
-  std::vector<std::byte> shuffled_;
+  std::vector<std::byte> shuffled_;  ///< the chunk
+  std::size_t element_size_ = 1;
+  std::size_t elements_ = 0;  ///< that have been put
   std::unique_ptr<std::byte[]> scratch_;
   std::size_t scratch_size_ = 0;
   std::shared_ptr<KnownChunks> known_;

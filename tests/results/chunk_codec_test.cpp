@@ -82,6 +82,27 @@ TEST(ChunkCodec, ChunksThatComeAgainArePackedTheSame) {
   }
 }
 
+TEST(ChunkCodec, PiecesArePackedAsTheWhole) {
+  const std::vector<std::byte> raw = bytes({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0, 0});
+  for (const std::size_t element_size : {1U, 2U, 4U}) {
+    std::vector<std::byte> expected, packed;
+    ChunkCodec().pack(raw, element_size, expected);
+    ChunkCodec codec;
+    codec.begin(raw.size(), element_size);
+    codec.put(std::span(raw).first(8));
+    codec.put(std::span(raw).subspan(8, 4));  // what is not put is 0
+    codec.finish(packed);
+    EXPECT_EQ(packed, expected) << element_size;
+  }
+}
+
+TEST(ChunkCodec, FewerChunksAreKnownWhereThreadsHoldMany) {
+  EXPECT_EQ(KnownChunks::most(1), 8);
+  EXPECT_EQ(KnownChunks::most(10), 8);
+  EXPECT_EQ(KnownChunks::most(16), 2);
+  EXPECT_EQ(KnownChunks::most(300), 2);
+}
+
 TEST(ChunkCodec, WhatItPackedBeforeLeavesNoTrace) {
   ChunkCodec used;
   std::vector<std::byte> packed;
