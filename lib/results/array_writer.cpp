@@ -26,7 +26,7 @@ void write_whole(const hdf5::Handle& dataset, const std::string& path, std::uint
 }
 
 /// Chunks are filled in pieces of so many bytes at most.
-constexpr std::size_t kPieceBytes = std::size_t{64} << 10U;
+constexpr std::size_t kPieceBytes = std::size_t{32} << 10U;
 
 hdf5::Storage storage_of(const ChunkLayout& layout, ElementType type) {
   hdf5::Storage storage;

@@ -45,6 +45,7 @@ void shuffle(std::span<const std::byte> raw, std::size_t element_size, std::byte
 // No header, the largest window. A small table of hashes: zlib goes through all of it for each window.
 constexpr int kRawWindow = -15;
 constexpr int kMemoryLevel = 6;
+constexpr std::size_t kOutputBytes = std::size_t{16} << 10U;  // at a time
 
 /// Whether runs of one byte are so long that coding them alone packs best.
 bool has_long_runs(std::span<const std::byte> bytes) {
@@ -175,29 +176,31 @@ void ChunkCodec::compress(std::vector<std::byte>& packed) {
   // zlib's header and checksum stand around a raw stream: libdeflate's checksum is many times as fast.
   constexpr std::array<std::byte, 2> kHeader = {std::byte{0x78}, std::byte{0x01}};
   constexpr std::size_t kChecksum = 4;
-  const std::size_t room = deflateBound(stream_.get(), shuffled_.size());
-  if (scratch_size_ < room) {
-    scratch_ = std::make_unique_for_overwrite<std::byte[]>(room);
-    scratch_size_ = room;
-  }
-  const std::size_t size = deflate_raw();
   packed.assign(kHeader.begin(), kHeader.end());
-  packed.insert(packed.end(), scratch_.get(), scratch_.get() + size);
+  deflate_raw(packed);
   const std::uint32_t checksum = libdeflate_adler32(1, shuffled_.data(), shuffled_.size());
   for (std::size_t i = kChecksum; i-- > 0;) packed.push_back(static_cast<std::byte>(checksum >> (8 * i)));
 }
 
-std::size_t ChunkCodec::deflate_raw() {
+void ChunkCodec::deflate_raw(std::vector<std::byte>& packed) {
   z_stream& stream = *stream_;
+  std::array<std::byte, kOutputBytes> output;
+  const auto make_room = [&] {
+    stream.next_out = reinterpret_cast<Bytef*>(output.data());
+    stream.avail_out = static_cast<uInt>(output.size());
+  };
   deflateReset(&stream);
-  stream.next_out = reinterpret_cast<Bytef*>(scratch_.get());
-  stream.avail_out = static_cast<uInt>(scratch_size_);
+  make_room();
   stream.avail_in = 0;
   deflateParams(&stream, kDeflateLevel, has_long_runs(shuffled_) ? Z_RLE : Z_DEFAULT_STRATEGY);
   stream.next_in = reinterpret_cast<const Bytef*>(shuffled_.data());
   stream.avail_in = static_cast<uInt>(shuffled_.size());
-  if (deflate(&stream, Z_FINISH) != Z_STREAM_END) throw std::logic_error("a chunk is packed in part");
-  return stream.total_out;
+  for (int state = Z_OK; state != Z_STREAM_END;) {
+    state = deflate(&stream, Z_FINISH);
+    if (state != Z_OK && state != Z_STREAM_END) throw std::logic_error("a chunk is packed in part");
+    packed.insert(packed.end(), output.begin(), output.end() - static_cast<std::ptrdiff_t>(stream.avail_out));
+    make_room();
+  }
 }
 
 }  // namespace coordreq

@@ -76,8 +76,8 @@ class ChunkCodec {
 
  private:
   void compress(std::vector<std::byte>& packed);
-  /// To scratch_, without header and checksum. @returns how many bytes
-  std::size_t deflate_raw();
+  /// Adds the stream without header and checksum.
+  void deflate_raw(std::vector<std::byte>& packed);
 
   struct Free {
     void operator()(z_stream_s* stream) const;
@@ -86,8 +86,6 @@ class ChunkCodec {
   std::vector<std::byte> shuffled_;  ///< the chunk
   std::size_t element_size_ = 1;
   std::size_t elements_ = 0;  ///< that have been put
-  std::unique_ptr<std::byte[]> scratch_;
-  std::size_t scratch_size_ = 0;
   std::shared_ptr<KnownChunks> known_;
 };
 
