@@ -21,8 +21,8 @@ namespace coordreq {
 /// one gives back the others cannot use: three vehicles took a third to a half more with sixteen threads than
 /// with two. Without effect where the system cannot do that.
 void share_heaps();
-/// Gives memory of the heaps that is not in use back to the system, wherever it lies. Without effect where the
-/// system cannot do that.
+/// Gives memory of the heaps that is not in use back to the system, wherever it lies. Without effect where
+/// the system cannot do that.
 void give_back_memory();
 
 /// Memory that this process holds now, with the pages of the program and its libraries that any work still
