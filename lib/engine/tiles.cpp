@@ -195,7 +195,7 @@ double Tiles::fraction_different(const Numbers& content, ThreadTeam* team) const
       add_tables(tile, list);
       const RowPosition position(engine_->grid(), tile * rows_);
       add_contents(
-          place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch,
+          position, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch,
           list);
       drawn[static_cast<std::size_t>(k)] = lists.number(list);
     }
