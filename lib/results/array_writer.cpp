@@ -1,6 +1,7 @@
 #include "results/array_writer.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -47,8 +48,8 @@ double ArrayWriter::bytes(double longest, int threads) {
   const double chunks = std::ceil(longest / chunk);
   const double batch = std::min(chunks, static_cast<double>(kChunksPerThread) * threads);
   // If an array has few chunks, those of the next array go to other threads.
-  const double busy = std::min<double>(threads, 4 * chunks);
-  const double known = std::min(chunks, static_cast<double>(KnownChunks::most(threads)));
+  const double busy = std::min<double>(packers(threads), 4 * chunks);
+  const double known = std::min(chunks, static_cast<double>(KnownChunks::most(packers(threads))));
   return busy * (kCopies * chunk + kPieces * kPieceBytes + ChunkCodec::kBytes) +
          (known + kUsualPacking * batch) * chunk;
 }
@@ -58,7 +59,7 @@ ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, Ran
       driver_(driver),
       ranks_(ranks),
       packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {
-  for (ChunkCodec& codec : ChunkCodec::for_threads(team.size()))
+  for (ChunkCodec& codec : ChunkCodec::make(packers(team.size())))
     scratch_.push_back({.codec = std::move(codec), .raw = {}});
 }
 
@@ -128,9 +129,11 @@ void ArrayWriter::write_chunks(const hdf5::Handle& dataset, const std::string& p
 void ArrayWriter::pack_batch(const ChunkLayout& layout, const ResultArray& array, std::uint64_t first,
                              std::size_t count) {
   const std::size_t size = element_size(array.type);
-  team_.for_each(static_cast<std::int64_t>(count), 1, [&](ThreadTeam::Range range, int worker) {
-    Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
-    for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
+  // Each packer takes the next chunk until there is none.
+  std::atomic<std::size_t> next = 0;
+  team_.for_each(std::ssize(scratch_), 1, [&](ThreadTeam::Range range, int) {
+    Scratch& scratch = scratch_[static_cast<std::size_t>(range.begin)];
+    for (std::size_t i = next++; i < count; i = next++) {
       const ChunkLayout::Segment segment = layout.segment(first + i);
       scratch.codec.begin(layout.chunk_elements() * size, size);
       for (std::uint64_t done = 0; done < segment.count;) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,13 +16,17 @@
 namespace coordreq {
 
 /// Writes arrays as datasets: small ones as they are, others in compressed chunks that are filled and packed
-/// by all threads and written in order by the caller's.
+/// by several threads and written in order by the caller's.
 ///
-/// Memory: about 1.5 MiB a thread for the chunk at work, those that are remembered (KnownChunks::most), and
-/// the packed chunks of a batch, at most kChunksPerThread MiB a thread.
+/// Memory: about 1.5 MiB for each chunk at work, those that are remembered (KnownChunks::most), and the
+/// packed chunks of a batch, at most kChunksPerThread MiB a thread.
 class ArrayWriter {
  public:
   static constexpr std::size_t kChunksPerThread = 4;
+
+  /// How many chunks are packed at a time: not by all of many threads, so that these need little more memory
+  /// than two.
+  [[nodiscard]] static int packers(int threads) { return std::min(threads, 8); }
 
   /// Memory of writing arrays of at most `longest` bytes.
   [[nodiscard]] static double bytes(double longest, int threads);
@@ -56,7 +61,7 @@ class ArrayWriter {
   ThreadTeam& team_;
   const hdf5::OutputDriver& driver_;
   RankChunks* ranks_;
-  std::vector<Scratch> scratch_;                // one a thread
+  std::vector<Scratch> scratch_;                // one a packer
   std::vector<std::vector<std::byte>> packed_;  // one a chunk of the batch
 };
 

@@ -117,10 +117,10 @@ ChunkCodec::ChunkCodec(std::shared_ptr<KnownChunks> known)
   }
 }
 
-std::vector<ChunkCodec> ChunkCodec::for_threads(int threads) {
-  const auto known = std::make_shared<KnownChunks>(threads);
+std::vector<ChunkCodec> ChunkCodec::make(int count) {
+  const auto known = std::make_shared<KnownChunks>(count);
   std::vector<ChunkCodec> codecs;
-  for (int thread = 0; thread < threads; ++thread) codecs.emplace_back(known);
+  for (int k = 0; k < count; ++k) codecs.emplace_back(known);
   return codecs;
 }
 

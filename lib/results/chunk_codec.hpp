@@ -19,13 +19,13 @@ inline constexpr int kDeflateLevel = 1;
 /// of them.
 class KnownChunks {
  public:
-  /// How many are remembered: fewer where many threads have a chunk each, so that sixteen need little more
-  /// memory than two.
-  [[nodiscard]] static constexpr std::size_t most(int threads) {
-    return static_cast<std::size_t>(std::clamp(kMostBuffers - threads, 2, 8));
+  /// How many are remembered: fewer where many codecs have a chunk each, so that all need much the same
+  /// memory.
+  [[nodiscard]] static constexpr std::size_t most(int codecs) {
+    return static_cast<std::size_t>(std::clamp(kMostBuffers - codecs, 2, 8));
   }
 
-  explicit KnownChunks(int threads) : most_(most(threads)) {}
+  explicit KnownChunks(int codecs) : most_(most(codecs)) {}
 
   /// Replaces `packed` by what became of equal bytes. @returns false if none are known
   bool find(std::span<const std::byte> bytes, std::vector<std::byte>& packed) const;
@@ -33,7 +33,7 @@ class KnownChunks {
   void add(std::vector<std::byte>& bytes, std::span<const std::byte> packed);
 
  private:
-  static constexpr int kMostBuffers = 18;
+  static constexpr int kMostBuffers = 10;
   struct Known {
     std::uint64_t mark = 0;
     std::vector<std::byte> bytes;
@@ -61,8 +61,8 @@ class ChunkCodec {
   static constexpr double kBytes = 256.0 * 1024;
 
   explicit ChunkCodec(std::shared_ptr<KnownChunks> known = std::make_shared<KnownChunks>(1));
-  /// One for each of some threads; they know the same chunks.
-  [[nodiscard]] static std::vector<ChunkCodec> for_threads(int threads);
+  /// Several, which know the same chunks.
+  [[nodiscard]] static std::vector<ChunkCodec> make(int count);
 
   /// Begins a chunk of so many bytes, a whole number of elements, all 0.
   void begin(std::size_t bytes, std::size_t element_size);

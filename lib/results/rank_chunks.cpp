@@ -18,7 +18,7 @@ RankChunks::RankChunks(ThreadTeam& team, const RowShare& share, const CellOrder&
       share_(share),
       order_(order),
       group_size_(kGroupOfThread * static_cast<std::size_t>(team.size())),
-      codecs_(ChunkCodec::for_threads(team.size())) {}
+      codecs_(ChunkCodec::make(team.size())) {}
 
 ChunkLayout::Segment RankChunks::segment(std::uint64_t chunk) const {
   return layout_->chunked() ? layout_->segment(chunk)

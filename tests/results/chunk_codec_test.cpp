@@ -98,8 +98,8 @@ TEST(ChunkCodec, PiecesArePackedAsTheWhole) {
 
 TEST(ChunkCodec, FewerChunksAreKnownWhereThreadsHoldMany) {
   EXPECT_EQ(KnownChunks::most(1), 8);
-  EXPECT_EQ(KnownChunks::most(10), 8);
-  EXPECT_EQ(KnownChunks::most(16), 2);
+  EXPECT_EQ(KnownChunks::most(2), 8);
+  EXPECT_EQ(KnownChunks::most(8), 2);
   EXPECT_EQ(KnownChunks::most(300), 2);
 }
 
