@@ -378,6 +378,11 @@ int main(void) {
             "'prefer' reads what agents do not see, expected random or adversarial with --blind (--policy)",
             *("simulate", "r.h5", "--start", "random", "--steps", "2", "--blind", "--policy", "prefer"),
         )
+        self.assert_fails(
+            2,
+            "expected --blind or --silent, found both (--silent)",
+            *("simulate", "r.h5", "--start", "random", "--steps", "2", "--silent", "--blind"),
+        )
         self.results({**TOGGLE, "goal": "s == 0"})
         self.assert_fails(
             2,
