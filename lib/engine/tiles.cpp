@@ -202,7 +202,7 @@ double Tiles::fraction_different(const Numbers& content, ThreadTeam* team) const
   });
   const auto all = static_cast<double>(drawn.size());
   std::ranges::sort(drawn);
-  drawn.erase(std::ranges::unique(drawn).begin(), drawn.end());
+  drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());
   return static_cast<double>(drawn.size()) / all;
 }
 

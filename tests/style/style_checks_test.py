@@ -116,6 +116,15 @@ class StyleChecks(unittest.TestCase):
             ["lib/base/b.cpp:1", "lib/base/b.cpp:2"],
         )
 
+    def test_a_range_that_clang_does_not_compile_is_found(self):
+        self.write("lib/base/a.cpp", "std::ranges::sort(list);\n// std::views\nstd::unique(list.begin(), list.end());\n")
+        self.assertEqual(style_checks.clang_knows_ranges(self.root), [])
+        self.write("lib/base/b.cpp", "#include <ranges>\nstd::ranges::unique(list);\nfor (int i : std::views::iota(0, 3))\n")
+        self.assertEqual(
+            [finding.split(": ")[0] for finding in style_checks.clang_knows_ranges(self.root)],
+            ["lib/base/b.cpp:1", "lib/base/b.cpp:2", "lib/base/b.cpp:3"],
+        )
+
     def test_long_file_is_found(self):
         self.write("app/a.cpp", "\n" * 400)
         self.write("app/b.cpp", "\n" * 401)
