@@ -56,14 +56,6 @@ std::vector<AbstractAgent> find_agents_alike(const AnalysisContext& context) {
   return find_like_agents(*context.abstraction, all, safe_sets(context));
 }
 
-/// AnalysisContext::count() by all threads.
-std::int64_t count_by(ThreadTeam& team, const AnalysisContext& context, const CellSet& set) {
-  std::atomic<std::int64_t> total = 0;
-  for_each_local_row(team, context.shared_rows(), set.rows(), 256,
-                     [&](ThreadTeam::Range rows, int) { total += set.count(rows.begin, rows.end); });
-  return sum_of_all(context.shared_rows(), total);
-}
-
 /// Adds the cells of G, of a goal that ends the task, in some rows where S is known.
 void add_terminal(const std::vector<RowShare::Range>& runs, ThreadTeam& team, AnalysisContext& context) {
   const Abstraction& abstraction = *context.abstraction;
@@ -85,9 +77,13 @@ TubeSets AnalysisContext::tubes() const {
   return {&safe, beyond ? &*beyond : nullptr};
 }
 
-std::int64_t AnalysisContext::count(const CellSet& set) const {
+std::int64_t AnalysisContext::count(const CellSet& set, ThreadTeam* team) const {
   const RowShare::Range local = local_rows(shared_rows(), set.rows());
-  return sum_of_all(shared_rows(), set.count(local.begin, local.end));
+  std::atomic<std::int64_t> cells = 0;
+  for_each(team, local.end - local.begin, 256, [&](ThreadTeam::Range rows, int) {
+    cells += set.count(local.begin + rows.begin, local.begin + rows.end);
+  });
+  return sum_of_all(shared_rows(), cells);
 }
 
 std::optional<RowSymmetry> AnalysisContext::symmetry(const std::vector<InputClass>& classes) const {
@@ -135,11 +131,11 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   context.tiles = Tiles::find(*context.engine, *context.hull, context.safe, &team);
   if (context.ranks == nullptr && context.pairs.admissible() == nullptr)
     context.like_agents = find_agents_alike(context);
-  context.safe_cells = count_by(team, context, context.safe);
+  context.safe_cells = context.count(context.safe, &team);
   if (context.tiles && context.terminal)
     context.tiles_with_terminal = context.tiles->refined(
         context.tiles->tables(), number_rows(*context.terminal, context.shared_rows()));
-  context.terminal_cells = context.terminal ? count_by(team, context, *context.terminal) : 0;
+  context.terminal_cells = context.terminal ? context.count(*context.terminal, &team) : 0;
   context.order.emplace(abstraction.grid);
 }
 

@@ -74,8 +74,8 @@ struct AnalysisContext {
   [[nodiscard]] const RowShare* shared_rows() const { return share ? &*share : nullptr; }
   /// The cells that count as T, or null.
   [[nodiscard]] const CellSet* terminal_or_null() const { return terminal ? &*terminal : nullptr; }
-  /// Cells of a set in the rows of all processes. Together.
-  [[nodiscard]] std::int64_t count(const CellSet& set) const;
+  /// Cells of a set in the rows of all processes. Together. @param team null: this thread alone
+  [[nodiscard]] std::int64_t count(const CellSet& set, ThreadTeam* team = nullptr) const;
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
   /// Equal work of an operator that depends on the tables, S, and G of a goal that ends the task.

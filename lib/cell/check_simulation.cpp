@@ -35,8 +35,7 @@ void check_kind(const ProblemSpec& spec, const SimulationOptions& options) {
   if (options.kind == nullptr) return;
   const CountdownOption& option = options.kind->option;
   const auto is_of_kind = [&](const AnswerPolicy& policy) { return policy.kind == options.kind; };
-  if (std::ranges::none_of(answer_policies(spec), is_of_kind))
-    throw UsageError(option.missing, option.name);
+  if (std::ranges::none_of(answer_policies(spec), is_of_kind)) throw UsageError(option.missing, option.name);
   const auto refuse = [](bool is_given, const char* error, const char* other) {
     if (is_given && error != nullptr) throw UsageError(error, other);
   };
@@ -65,7 +64,7 @@ std::vector<Rational> start_state(const ResultsReader& results, const std::strin
 }
 
 void check_start(const ResultsReader& results, const std::vector<Rational>& state,
-                 std::span<const std::int32_t> delays, bool is_anywhere) {
+                 std::span<const std::int32_t> delays, const CountdownKind* kind) {
   const Location location = locate(results.grid(), state);
   std::optional<std::size_t> fault;
   if (location.kind != Location::Kind::cell) fault = location.dimension;
@@ -81,8 +80,8 @@ void check_start(const ResultsReader& results, const std::vector<Rational>& stat
   const std::int32_t steps = delays[static_cast<std::size_t>(location.cell)];
   if (steps < 0) {
     throw UsageError(steps == kOutsideSafe ? "the start is not in the safe set"
-                     : is_anywhere
-                         ? "the start is not in the silence set: the fallback rule is not safe from there"
+                     : kind != nullptr && kind->option.no_start != nullptr
+                         ? kind->option.no_start
                          : "the start is not in the invariance set: on this grid not even coordination keeps "
                            "the system safe from there",
                      "--from");

@@ -236,7 +236,7 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
                       .connection_delay = spec.coordination.connection_delay};
   for (const auto& [path, cells] : values) problem.values[path] = cells;
   if (loop.start) {
-    check_start(results, *loop.start, problem.start_steps(), policies.back().is_anywhere);
+    check_start(results, *loop.start, problem.start_steps(), options.kind);
   } else if (!has_start(spec, problem.start_steps())) {
     throw UsageError(spec.memory.empty()
                          ? "the invariance set is empty: there is no state to start from"

@@ -165,17 +165,6 @@ class LevelRows {
   }
   void renumber() { interner_.renumber(); }
 
-  /// Puts rows [begin, end) that have the greatest level in the cells of a set, and 0 in others.
-  void assign(const CellSet& set, std::int64_t begin, std::int64_t end) {
-    const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
-    // By way of a buffer: the kernel writes whole blocks, beyond the row.
-    std::vector<Level> lanes(static_cast<std::size_t>(length_) + kLevelBlock / sizeof(Level));
-    for (std::int64_t r = begin; r < end; ++r) {
-      kernels.spread(set.row(r).data(), lanes.data(), static_cast<std::size_t>(length_));
-      put(r, lanes.data());
-    }
-  }
-
   /// Closes a row of this layout that stands outside this object.
   void close_row(Level* cells) const { close_from(cells, 0); }
 
@@ -311,6 +300,15 @@ void put_rows(LevelRows<Level>& levels, ThreadTeam& team, const Fill& fill) {
         levels.put_ready(begin + k, lanes_of(k), ready[static_cast<std::size_t>(k)]);
     }
   }
+}
+
+/// Gives each row held the greatest level in the cells of a set, and 0 in others.
+template <class Level>
+void put_set(LevelRows<Level>& levels, const CellSet& set, ThreadTeam& team) {
+  const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
+  put_rows(levels, team, [&](std::int64_t r, Level* cells) {
+    kernels.spread(set.row(r).data(), cells, static_cast<std::size_t>(levels.row_length()));
+  });
 }
 
 }  // namespace coordreq

@@ -83,9 +83,8 @@ void RowEngine::add_demand(const CellSet& inside, const std::vector<GridDimensio
 }
 
 void RowEngine::take_tube_sets() {
-  for (const RowShare::Range run : held_rows(share_, rows())) {
-    for (std::size_t k = 0; k < inside_.size(); ++k) inside_[k].assign(*inside_sets_[k], run.begin, run.end);
-  }
+  ThreadTeam alone(1);
+  for (std::size_t k = 0; k < inside_.size(); ++k) put_set(inside_[k], *inside_sets_[k], alone);
 }
 
 /// The tables of the inner dimensions as sums, if all of them are sums, and the tables of the dimensions

@@ -117,10 +117,7 @@ class RowEngine {
   [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team,
                                              bool interned = false) const {
     auto levels = make_levels<Level>(posts(), interned);
-    const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
-    put_rows(levels, team, [&](std::int64_t r, Level* cells) {
-      kernels.spread(set.row(r).data(), cells, static_cast<std::size_t>(row_length()));
-    });
+    put_set(levels, set, team);
     return levels;
   }
 

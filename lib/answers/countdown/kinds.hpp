@@ -14,6 +14,7 @@ struct CountdownOption {
   const char* no_prefer = nullptr;  ///< errors with `--policy prefer`, `--until` and `--lossy`; null: allowed
   const char* no_until = nullptr;
   const char* no_lossy = nullptr;
+  const char* no_start = nullptr;  ///< the error where a run cannot start in S; null: that of K
 
   /// Its member in JSON, and its attribute in files of runs.
   [[nodiscard]] const char* key() const { return name + 2; }
@@ -62,7 +63,8 @@ inline constexpr CountdownKind kSilenceKind{
      .missing = "the spec has no communication-loss rule, expected the key 'silence'",
      .no_until =
          "agents under the communication-loss rule do not pursue the goal, expected --silent or --until",
-     .no_lossy = "the network says when steps are lost, expected --silent or --lossy"}};
+     .no_lossy = "the network says when steps are lost, expected --silent or --lossy",
+     .no_start = "the start is not in the silence set: the fallback rule is not safe from there"}};
 
 inline constexpr std::array kCountdownKinds{&kDelayKind, &kApproachKind, &kBlindKind, &kSilenceKind};
 

@@ -34,8 +34,9 @@ struct Reached {
   bool is_safe = false;
 };
 
-/// A counterexample that grows step by step, phase by phase (path_steps.cpp), and the system itself beside it: a walk for PathSearch. With
-/// several processes together: each step is found by the one that owns the cell.
+/// A counterexample that grows step by step, phase by phase (path_steps.cpp), and the system itself beside
+/// it: a walk for PathSearch. With several processes together: each step is found by the one that owns the
+/// cell.
 class PathRun {
  public:
   /// @pre unchecked: `problem` outlives this object.

@@ -57,7 +57,8 @@ void find_arrival(Answers& answers, const StageWork& work) {
   });
   goal.winning = winning_cells(goal.nearness, work.team);
   goal.longest = longest_arrival(goal.nearness, work.team);
-  goal.sizes = {context.count(goal.cells), context.count(goal.winning), context.count(safe)};
+  goal.sizes = {context.count(goal.cells, &work.team), context.count(goal.winning, &work.team),
+                context.count(safe, &work.team)};
   if (context.spec.is_goal_lasting()) {
     goal.outside_goal = goal.winning;
     goal.bounds = progress_bounds(lasting, goal.nearness, then);

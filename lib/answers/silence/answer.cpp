@@ -60,7 +60,7 @@ void find_set(Answers& answers, const StageWork& work) {
                              std::nullopt, watch, work.team, silence.counts, context.terminal_or_null());
   });
   silence.set = silence.lost.top_cells(work.team);
-  silence.cells = context.count(silence.set);
+  silence.cells = context.count(silence.set, &work.team);
 }
 
 std::vector<std::int64_t> sums(const AnalysisContext& context, const SilentActions& actions) {
