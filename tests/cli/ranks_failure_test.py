@@ -8,6 +8,8 @@ import unittest
 from program import CONFIGS, SANITIZED, spec_with
 from ranks_case import MPIRUN, RanksCase
 
+MPICH = "mpich" in (MPIRUN or "")
+
 FINE = spec_with(states=[{"name": name, "lower": 0, "upper": 1500, "step": 1, "outside": "unsafe"} for name in "xy"], safe="true")
 
 # Takes more address space than a rank with 300 MB has left.
@@ -26,9 +28,11 @@ class Cases(RanksCase):
         time.sleep(1)
         return process, ranks
 
-    def assert_nothing_is_left(self, process):
+    def assert_nothing_is_left(self, process, ranks):
         process.communicate(timeout=60)
-        self.assertNotEqual(process.returncode, 0)
+        for rank in ranks:
+            while os.path.exists(f"/proc/{rank}"):  # until the test's own limit
+                time.sleep(0.01)
         self.assertEqual(self.files(), [])
 
     def test_a_rank_that_is_killed_ends_all(self):
@@ -36,12 +40,15 @@ class Cases(RanksCase):
             with self.subTest(which=which):
                 process, ranks = self.start_long_run()
                 os.kill(ranks[which], signal.SIGKILL)
-                self.assert_nothing_is_left(process)
+                self.assert_nothing_is_left(process, ranks)
+                self.assertNotEqual(process.returncode, 0)
 
     def test_an_interrupt_ends_all(self):
-        process, _ = self.start_long_run()
+        process, ranks = self.start_long_run()
         process.send_signal(signal.SIGTERM)
-        self.assert_nothing_is_left(process)
+        self.assert_nothing_is_left(process, ranks)
+        if not MPICH:  # its mpiexec at times returns 0, although the ranks returned 130
+            self.assertNotEqual(process.returncode, 0)
 
     def temporary(self):
         return [name for name in self.files() if name.startswith(".coordreq-")]
@@ -65,7 +72,7 @@ class Cases(RanksCase):
         for _ in range(10):  # on a busy machine this process may be late
             if self.killed_while_it_writes():
                 break
-            (self.folder / "o.h5").unlink()
+            (self.folder / "o.h5").unlink(missing_ok=True)
         self.assertNotIn("o.h5", self.files())
         self.assertEqual(self.run_ranks(2, "analyze", "fine.json", "-o", "o.h5").returncode, 0)
         self.assertEqual(self.files(), ["fine.json", "o.h5"])
@@ -76,7 +83,7 @@ class Cases(RanksCase):
         except FileNotFoundError:
             return False
 
-    @unittest.skipIf("mpich" in (MPIRUN or ""), "MPICH takes memory from files, which the limit is for too")
+    @unittest.skipIf(MPICH, "MPICH takes memory from files, which the limit is for too")
     def test_a_full_disk(self):
         self.write("fine.json", FINE)
         result = self.run_command(self.limited(3, 0, "ulimit -f 8", "analyze", "fine.json", "-o", "o.h5"))
