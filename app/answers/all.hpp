@@ -39,6 +39,10 @@ using RunFigures = std::vector<RunFigure>;
 /// Members of both documents that these texts describe.
 [[nodiscard]] const std::vector<std::string>& known_members();
 
+/// Modes of the network that a table shows, and a line with the number of those left out; empty if none.
+constexpr std::size_t kMostModes = 12;
+[[nodiscard]] std::string more_modes(std::size_t modes);
+
 // The texts of each answer, one file each:
 void add_goal_of_analysis(const Json& summary, Facts& facts);
 void add_goal_of_file(const Json& info, Facts& facts);

@@ -14,14 +14,6 @@
 namespace coordreq {
 namespace {
 
-/// Modes that a table shows.
-constexpr std::size_t kMostModes = 12;
-
-/// The number of modes that a table has left out; empty if none.
-std::string more_modes(std::size_t modes) {
-  return modes <= kMostModes ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostModes));
-}
-
 /// What agents go by, after the word "agents"; empty for independent ones.
 std::string manner_of(const NetworkSpec& network) {
   if (network.resynthesise) return " with robust re-synthesis";
@@ -29,6 +21,10 @@ std::string manner_of(const NetworkSpec& network) {
 }
 
 }  // namespace
+
+std::string more_modes(std::size_t modes) {
+  return modes <= kMostModes ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostModes));
+}
 
 std::string network_of_analysis(const Json& summary, const ProblemSpec& spec) {
   if (!spec.network || !has_partitions_in_full(summary)) return "";

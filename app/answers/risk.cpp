@@ -15,9 +15,6 @@
 namespace coordreq {
 namespace {
 
-/// Modes that a table shows.
-constexpr std::size_t kMostModes = 12;
-
 /// Thresholds of `within` that a table shows, and where they are: 0, 1e-12, 1e-11, ..., 1e-1.
 struct Threshold {
   const char* text;
@@ -74,14 +71,11 @@ std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
       row.push_back(grouped(modes[mode]["within"][threshold.index]));
     table.add(row);
   }
-  const std::string more = modes.size() <= kMostModes
-                               ? ""
-                               : fmt::format("  ... and {} more modes\n", grouped(modes.size() - kMostModes));
   return fmt::format("\nrisk within {}: {}\n{}{}{}  {}\n",
                      duration(entry["horizon"].get<std::int64_t>(), nearest_double(spec.dynamics.period),
                               spec.dynamics.unit),
-                     coordinated_text(spec), table.text(), more, start_text(entry["start"], spec),
-                     growth_text(entry["rate"].get<double>(), spec));
+                     coordinated_text(spec), table.text(), more_modes(modes.size()),
+                     start_text(entry["start"], spec), growth_text(entry["rate"].get<double>(), spec));
 }
 
 bool has_risk(const ProblemSpec& spec) {

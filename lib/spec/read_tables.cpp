@@ -17,7 +17,7 @@ using ReadNumber = std::function<Rational(const Node&)>;
 
 /// A minimum of lines for each of them: time and memory grow with the square.
 constexpr std::size_t kMostPoints = 100;
-constexpr std::size_t kMostValues = 1000;
+constexpr std::size_t kMostTableValues = 1000;
 
 Node member(const Node& table, const std::string& key) {
   if (table.has(key)) return table[key];
@@ -63,8 +63,8 @@ Numbers read_values(const Node& list, std::size_t length, const ReadNumber& numb
 std::vector<Numbers> read_rows(const Node& list, std::size_t width, std::size_t height,
                                const ReadNumber& number) {
   check_length(list, height, "lists, one for each y");
-  if (width * height > kMostValues) {
-    throw SpecError(fmt::format("expected at most {} values, found {}", kMostValues, width * height),
+  if (width * height > kMostTableValues) {
+    throw SpecError(fmt::format("expected at most {} values, found {}", kMostTableValues, width * height),
                     list.pointer());
   }
   std::vector<Numbers> rows;

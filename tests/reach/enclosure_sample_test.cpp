@@ -12,7 +12,7 @@ namespace coordreq {
 namespace {
 
 /// Three states on 9 points each, two inputs of 2 values. @param effort of "abstraction"
-ProblemSpec spec_of(const std::string& equations, const std::string& effort = "200") {
+ProblemSpec sampled_spec(const std::string& equations, const std::string& effort = "200") {
   const std::string limits = R"("lower": -4, "upper": 4, "step": 1, "outside": "saturate"})";
   return read_spec(R"({"coordreq": 1, "name": "t", "states": [{"name": "x", )" + limits +
                        R"(, {"name": "y", )" + limits + R"(, {"name": "z", )" + limits +
@@ -37,7 +37,7 @@ double subboxes_of_box(const ProblemSpec& spec, int boxes) {
 
 TEST(EnclosureSample, CountsTheBoxesThatTablesNeed) {
   // x and y have an influence on one another, z moves by itself and is exactly solved.
-  const ProblemSpec spec = spec_of(R"({"x": "y + u", "y": "(1 - x^2)*y - x", "z": "v"})");
+  const ProblemSpec spec = sampled_spec(R"({"x": "y + u", "y": "(1 - x^2)*y - x", "z": "v"})");
   const std::vector<EnclosedGroup> groups = groups_of(spec);
   ASSERT_EQ(groups.size(), 1);
   EXPECT_EQ(groups[0].states, (std::vector<std::size_t>{0, 1}));
@@ -45,18 +45,18 @@ TEST(EnclosureSample, CountsTheBoxesThatTablesNeed) {
 }
 
 TEST(EnclosureSample, HasNothingOfExactPosts) {
-  EXPECT_TRUE(groups_of(spec_of(R"({"x": "y + u", "y": "v", "z": "1"})")).empty());
+  EXPECT_TRUE(groups_of(sampled_spec(R"({"x": "y + u", "y": "v", "z": "1"})")).empty());
 }
 
 TEST(EnclosureSample, KnowsAStateThatIsAffineOnlyWithoutAnInput) {
-  const ProblemSpec spec = spec_of(R"_({"x": "u*sin(x)", "y": "v", "z": "1"})_");
+  const ProblemSpec spec = sampled_spec(R"_({"x": "u*sin(x)", "y": "v", "z": "1"})_");
   const std::vector<EnclosedGroup> groups = groups_of(spec);
   ASSERT_EQ(groups.size(), 1);
   EXPECT_EQ(EnclosureSample(spec, groups[0]).choices(), 9 * 2);
 }
 
 TEST(EnclosureSample, KnowsThatTablesOfSumsNeedFewBoxes) {
-  const ProblemSpec spec = spec_of(R"_({"x": "y + sin(z)", "y": "-x + cos(z)", "z": "v"})_");
+  const ProblemSpec spec = sampled_spec(R"_({"x": "y + sin(z)", "y": "-x + cos(z)", "z": "v"})_");
   const std::vector<EnclosedGroup> groups = groups_of(spec);
   ASSERT_EQ(groups.size(), 1);
   EXPECT_EQ(groups[0].states, (std::vector<std::size_t>{0, 1}));
@@ -67,7 +67,7 @@ TEST(EnclosureSample, KnowsThatTablesOfSumsNeedFewBoxes) {
 }
 
 TEST(EnclosureSample, TellsByFewBoxesHowManySubboxesAllTake) {
-  const ProblemSpec spec = spec_of(R"({"x": "y + u", "y": "2*(1 - x^2)*y - x", "z": "v"})");
+  const ProblemSpec spec = sampled_spec(R"({"x": "y + u", "y": "2*(1 - x^2)*y - x", "z": "v"})");
   const double few = subboxes_of_box(spec, 12);
   const double all = subboxes_of_box(spec, 300);
   EXPECT_GT(all, 3);  // boxes are divided
@@ -76,7 +76,8 @@ TEST(EnclosureSample, TellsByFewBoxesHowManySubboxesAllTake) {
 }
 
 TEST(EnclosureSample, TakesOneSubboxABoxWhereNoneIsDivided) {
-  EXPECT_EQ(subboxes_of_box(spec_of(R"({"x": "y + u", "y": "2*(1 - x^2)*y - x", "z": "v"})", "0"), 12), 1);
+  EXPECT_EQ(subboxes_of_box(sampled_spec(R"({"x": "y + u", "y": "2*(1 - x^2)*y - x", "z": "v"})", "0"), 12),
+            1);
 }
 
 }  // namespace

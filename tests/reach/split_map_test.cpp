@@ -9,7 +9,7 @@
 namespace coordreq {
 namespace {
 
-constexpr std::array<std::uint32_t, 2> kPlane{0, 1};
+constexpr std::array<std::uint32_t, 2> kPlaneStates{0, 1};
 
 Interval range_of(const std::string& text, const Interval& x, const Interval& y, double step,
                   std::int64_t effort) {
@@ -18,7 +18,7 @@ Interval range_of(const std::string& text, const Interval& x, const Interval& y,
   slots[0] = x;
   slots[1] = y;
   const std::vector<double> steps(slots.size(), 1.0);
-  return SplitMap(program, kPlane, steps, {.step = step}, effort).enclose(slots);
+  return SplitMap(program, kPlaneStates, steps, {.step = step}, effort).enclose(slots);
 }
 
 Interval sampled_range(double (*f)(double, double), const Interval& x, const Interval& y) {

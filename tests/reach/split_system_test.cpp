@@ -92,7 +92,7 @@ void attack_tubes(const SystemSpec& spec, const Abstraction& a, int cases) {
 
 /// In small steps that end at the limits.
 void attack_limits(const SystemSpec& spec, const Abstraction& a, int cases) {
-  constexpr int kSteps = 8'000;
+  constexpr int kEulerSteps = 8'000;
   std::mt19937_64 random(20180410);
   std::vector<Evaluator<double>> equations(spec.dynamics.equations.begin(), spec.dynamics.equations.end());
   const auto clamped = [&](std::size_t i, double x) {
@@ -102,10 +102,10 @@ void attack_limits(const SystemSpec& spec, const Abstraction& a, int cases) {
   for (int c = 0; c < cases; ++c) {
     test::RandomStart start = test::random_start(spec, a, random);
     for (std::size_t i = 0; i < 2; ++i) start.slots[i] = clamped(i, start.slots[i]);
-    for (int k = 0; k < kSteps; ++k) {
+    for (int k = 0; k < kEulerSteps; ++k) {
       const double rate[] = {equations[0].number(start.slots), equations[1].number(start.slots)};
       for (std::size_t i = 0; i < 2; ++i)
-        start.slots[i] = clamped(i, start.slots[i] + 0.8 / kSteps * rate[i]);
+        start.slots[i] = clamped(i, start.slots[i] + 0.8 / kEulerSteps * rate[i]);
     }
     for (std::size_t i = 0; i < 2; ++i)
       ASSERT_TRUE(is_in_cells(a.grid[i], a.raw(i, start.cell, 0), start.slots[i], 0.01)) << start.cell;

@@ -9,7 +9,7 @@
 namespace coordreq {
 namespace {
 
-std::string spec_of(const std::string& states, const std::string& equations, const std::string& more = "") {
+std::string rows_spec(const std::string& states, const std::string& equations, const std::string& more = "") {
   return R"({"coordreq": 1, "name": "stopped", "states": [)" + states +
          R"(], "inputs": [{"name": "u", "values": [-4, 0, 4]}], "agents": [{"name": "one", "inputs": ["u"]}], )" +
          more + R"("dynamics": {"time": "continuous", "period": 0.5, "equations": {)" + equations +
@@ -24,7 +24,7 @@ Abstraction built(const std::string& text) {
 const std::string kSpeed = R"({"name": "v", "lower": 0, "upper": 20, "step": 2, "outside": "stop"})";
 
 TEST(StoppedRow, AtAFaceAnIntegratorTouchesNoCellMoreThanItReaches) {
-  const Abstraction a = built(spec_of(kSpeed, R"("v": "u")"));
+  const Abstraction a = built(rows_spec(kSpeed, R"("v": "u")"));
   EXPECT_TRUE(a.exact);
   EXPECT_EQ(a.raw(0, 0, 1), (IndexRange{0, 0}));  // at rest it stays at rest: [0, 1)
   EXPECT_EQ(a.raw(0, 1, 0), (IndexRange{0, 0}));  // braking from [1, 3) to [0, 1)
@@ -36,7 +36,7 @@ TEST(StoppedRow, AtAFaceAnIntegratorTouchesNoCellMoreThanItReaches) {
 
 TEST(StoppedRow, ADisturbanceOfTheIntegratorCountsAtBothEnds) {
   const Abstraction a = built(
-      spec_of(kSpeed, R"("v": "u + w")", R"("disturbances": [{"name": "w", "lower": -1, "upper": 1}], )"));
+      rows_spec(kSpeed, R"("v": "u + w")", R"("disturbances": [{"name": "w", "lower": -1, "upper": 1}], )"));
   EXPECT_TRUE(a.exact);
   EXPECT_EQ(a.raw(0, 0, 0), (IndexRange{0, 0}));
   EXPECT_EQ(a.raw(0, 1, 0), (IndexRange{0, 1}));  // from [1, 3) by -1.5 to [0, 1.5)
@@ -53,7 +53,7 @@ double moved(double v, double u) {
 
 TEST(StoppedRow, WhatFollowsAStoppedIntegratorIsExactToo) {
   const std::string position = R"({"name": "p", "lower": 0, "upper": 20, "step": 0.01}, )";
-  const Abstraction a = built(spec_of(position + kSpeed, R"("p": "v", "v": "u")"));
+  const Abstraction a = built(rows_spec(position + kSpeed, R"("p": "v", "v": "u")"));
   EXPECT_TRUE(a.exact);
   const double inputs[] = {-4, 0, 4};
   for (std::int64_t k = 0; k <= 10; ++k) {
@@ -71,8 +71,8 @@ TEST(StoppedRow, WhatFollowsAStoppedIntegratorIsExactToo) {
 
 TEST(StoppedRow, WhatActsOnAStoppedStateAndOnAnotherIsEnclosed) {
   const std::string position = R"({"name": "p", "lower": 0, "upper": 20, "step": 1}, )";
-  const Abstraction a = built(spec_of(position + kSpeed, R"("p": "v - w", "v": "u + w")",
-                                      R"("disturbances": [{"name": "w", "lower": -1, "upper": 1}], )"));
+  const Abstraction a = built(rows_spec(position + kSpeed, R"("p": "v - w", "v": "u + w")",
+                                        R"("disturbances": [{"name": "w", "lower": -1, "upper": 1}], )"));
   EXPECT_FALSE(a.exact);
 }
 
@@ -81,7 +81,7 @@ TEST(StoppedRow, CellsThatTouchALimitAreNotOffIt) {
   const std::string states = R"({"name": "p", "lower": 0, "upper": 3, "step": 0.1},
     {"name": "v", "lower": 0, "upper": 3, "step": 1, "outside": "stop"},
     {"name": "a", "lower": 0, "upper": 1, "step": 1, "discrete": false})";
-  const Abstraction a = built(spec_of(states, R"("p": "v", "v": "a - 0.5", "a": "0")"));
+  const Abstraction a = built(rows_spec(states, R"("p": "v", "v": "a - 0.5", "a": "0")"));
   const std::int64_t cell = 10 * a.grid.stride(0) + 0 * a.grid.stride(1) + 1 * a.grid.stride(2);
   EXPECT_GE(a.raw(0, cell, 1).first, 9);
 }

@@ -9,7 +9,7 @@
 namespace coordreq {
 namespace {
 
-constexpr std::size_t kMany = 4096;
+constexpr std::size_t kModes = 4096;
 using Names = std::vector<std::string>;
 
 /// The modes that a sequence of steps can be in, from the initial mode on, its own step not counted.
@@ -67,23 +67,23 @@ std::size_t distinguishable(const LossAutomaton& automaton) {
 }
 
 TEST(LossAutomaton, ADelayIsAChain) {
-  const LossAutomaton delay = delay_automaton(3, kMany).value();
+  const LossAutomaton delay = delay_automaton(3, kModes).value();
   EXPECT_EQ(delay.names, (Names{"0", "00", "000", "1"}));
   EXPECT_EQ(delay.transitions,
             (std::vector<std::pair<std::int32_t, std::int32_t>>{{0, 1}, {1, 2}, {2, 3}, {3, 3}}));
-  EXPECT_EQ(delay_automaton(0, kMany)->names, Names{"1"});
+  EXPECT_EQ(delay_automaton(0, kModes)->names, Names{"1"});
 }
 
 TEST(LossAutomaton, BurstsAreNamedByTheirHistory) {
-  EXPECT_EQ(burst_automaton(3, 2, kMany)->names, (Names{"111", "110", "101", "100", "000"}));
-  EXPECT_EQ(burst_automaton(1, 1, kMany)->names, (Names{"1", "0"}));
-  EXPECT_EQ(burst_automaton(1, 3, kMany)->names, (Names{"111", "110", "101", "011"}));
+  EXPECT_EQ(burst_automaton(3, 2, kModes)->names, (Names{"111", "110", "101", "100", "000"}));
+  EXPECT_EQ(burst_automaton(1, 1, kModes)->names, (Names{"1", "0"}));
+  EXPECT_EQ(burst_automaton(1, 3, kModes)->names, (Names{"111", "110", "101", "011"}));
 }
 
 TEST(LossAutomaton, BurstsAreThoseOfTheRule) {
   for (std::int64_t length = 1; length <= 4; ++length) {
     for (std::int64_t gap = 1; gap <= 4; ++gap) {
-      const LossAutomaton automaton = burst_automaton(length, gap, kMany).value();
+      const LossAutomaton automaton = burst_automaton(length, gap, kModes).value();
       EXPECT_EQ(automaton.names.size(), static_cast<std::size_t>(length + gap));
       EXPECT_EQ(distinguishable(automaton), automaton.names.size());
       expect_exactly(
@@ -105,19 +105,19 @@ TEST(LossAutomaton, BurstsAreThoseOfTheRule) {
 }
 
 TEST(LossAutomaton, WeaklyHardModesAreNamedByTheirHistory) {
-  EXPECT_EQ(weakly_hard_automaton(2, 5, kMany)->names,
+  EXPECT_EQ(weakly_hard_automaton(2, 5, kModes)->names,
             (Names{"1111", "1110", "1101", "1100", "1011", "1010", "1001", "0110", "0101", "0011"}));
-  EXPECT_EQ(weakly_hard_automaton(1, 3, kMany)->names, (Names{"11", "10", "01"}));
-  EXPECT_EQ(weakly_hard_automaton(0, 4, kMany)->names, Names{"1"});
-  EXPECT_EQ(weakly_hard_automaton(4, 4, kMany)->names, (Names{"1", "0"}));
-  EXPECT_EQ(weakly_hard_automaton(1, 1, kMany)->names, (Names{"1", "0"}));
-  EXPECT_EQ(weakly_hard_automaton(2'000'000'000, 2'000'000'000, kMany)->names, (Names{"1", "0"}));
+  EXPECT_EQ(weakly_hard_automaton(1, 3, kModes)->names, (Names{"11", "10", "01"}));
+  EXPECT_EQ(weakly_hard_automaton(0, 4, kModes)->names, Names{"1"});
+  EXPECT_EQ(weakly_hard_automaton(4, 4, kModes)->names, (Names{"1", "0"}));
+  EXPECT_EQ(weakly_hard_automaton(1, 1, kModes)->names, (Names{"1", "0"}));
+  EXPECT_EQ(weakly_hard_automaton(2'000'000'000, 2'000'000'000, kModes)->names, (Names{"1", "0"}));
 }
 
 TEST(LossAutomaton, WeaklyHardSequencesAreThoseOfTheRule) {
   for (std::int64_t window = 1; window <= 6; ++window) {
     for (std::int64_t misses = 0; misses <= window; ++misses) {
-      const LossAutomaton automaton = weakly_hard_automaton(misses, window, kMany).value();
+      const LossAutomaton automaton = weakly_hard_automaton(misses, window, kModes).value();
       EXPECT_EQ(distinguishable(automaton), automaton.names.size());
       expect_exactly(
           automaton,

@@ -36,17 +36,17 @@ Json brink() {
 "safe": "true", "network": {"loss": 0.1}, "risk": {"horizon": 5}})json");
 }
 
-struct Found {
+struct FoundRisk {
   std::vector<std::vector<double>> risk;  ///< [mode][slack]
   double rate;
   std::vector<RiskFigures> figures;
 };
 
-Found find_brink(const Json& spec) {
+FoundRisk find_brink(const Json& spec) {
   ThreadTeam team(2);
   const FastAnalysis fast(read_spec(spec.dump(), "brink"), team);
   const RiskAnswer& answer = fast.answers->get<RiskAnswer>();
-  Found found{.risk = {}, .rate = answer.risk.rate, .figures = answer.figures};
+  FoundRisk found{.risk = {}, .rate = answer.risk.rate, .figures = answer.figures};
   for (const RiskRows& rows : answer.risk.risks) {
     auto& risks = found.risk.emplace_back();
     for (std::int64_t x = 0; x < 4; ++x)
@@ -75,7 +75,7 @@ Rational fraction(long numerator, long denominator) {
 }
 
 TEST(RiskOfABrink, SlackIsWastedWhileAgentsAreConnected) {
-  const Found found = find_brink(brink());
+  const FoundRisk found = find_brink(brink());
   expect_risks(found.risk[0],
                {fraction(3439, 10000), fraction(3439, 10000), fraction(271, 1000), fraction(19, 100)});
   expect_rate(found.rate, fraction(81, 1000));
@@ -84,7 +84,7 @@ TEST(RiskOfABrink, SlackIsWastedWhileAgentsAreConnected) {
 TEST(RiskOfABrink, OneStepLess) {
   Json spec = brink();
   spec["risk"]["horizon"] = 4;
-  const Found found = find_brink(spec);
+  const FoundRisk found = find_brink(spec);
   expect_risks(found.risk[0], {fraction(271, 1000), fraction(271, 1000), fraction(19, 100), fraction(1, 10)});
   expect_risks(found.risk[1], {1, fraction(271, 1000), fraction(19, 100), fraction(1, 10)});
 }
@@ -92,7 +92,7 @@ TEST(RiskOfABrink, OneStepLess) {
 TEST(RiskOfABrink, WhatIsForbiddenBlocksTheProduct) {
   Json spec = brink();
   spec["controller"]["allow"] = "u1 == u2";
-  const Found found = find_brink(spec);
+  const FoundRisk found = find_brink(spec);
   const Rational up = fraction(3439, 10000);
   expect_risks(found.risk[0], {up, up, up, up});
   expect_risks(found.risk[1], {1, 1, 1, 1});
@@ -104,14 +104,14 @@ TEST(RiskOfABrink, WhatIsForbiddenCountsWhereAllHaveLeftTheDomain) {
   spec["states"][0]["outside"]["above"] = "safe";
   spec["dynamics"]["equations"]["d"] = "d + 4";
   spec["controller"]["allow"] = "u1 == u2";
-  const Found found = find_brink(spec);
+  const FoundRisk found = find_brink(spec);
   EXPECT_EQ(found.risk, (std::vector<std::vector<double>>{{0, 0, 0, 0}, {1, 1, 1, 1}}));
 }
 
 TEST(RiskOfABrink, TheSafestGiveSlackBack) {
   Json spec = brink();
   spec["risk"]["coordinated"] = "safest";
-  const Found found = find_brink(spec);
+  const FoundRisk found = find_brink(spec);
   expect_risks(found.risk[0],
                {fraction(59, 5000), fraction(1, 1000), fraction(1, 10000), fraction(1, 10000)});
   expect_rate(found.rate, fraction(81, 50000));
@@ -121,16 +121,16 @@ TEST(RiskOfABrink, BurstsCostMore) {
   Json spec = brink();
   spec["network"]["after_loss"] = 0.5;
   spec["risk"]["coordinated"] = "safest";
-  const Found found = find_brink(spec);
+  const FoundRisk found = find_brink(spec);
   expect_risks(found.risk[0], {fraction(3, 40), fraction(1, 40), fraction(1, 80), fraction(1, 80)});
   expect_rate(found.rate, fraction(3, 160));
 }
 
 TEST(RiskOfABrink, TheWorstOfARangeIsItsUpperEnd) {
   Json spec = brink();
-  const Found sure = find_brink(spec);
+  const FoundRisk sure = find_brink(spec);
   spec["network"]["loss"] = {0, 0.1};
-  const Found range = find_brink(spec);
+  const FoundRisk range = find_brink(spec);
   for (std::size_t mode = 0; mode < 2; ++mode) {
     for (std::size_t x = 0; x < 4; ++x) EXPECT_NEAR(range.risk[mode][x], sure.risk[mode][x], 1e-7);
   }
@@ -140,7 +140,7 @@ TEST(RiskOfABrink, TheWorstOfARangeIsItsUpperEnd) {
 TEST(RiskOfABrink, WithoutLossesThereIsNoRisk) {
   Json spec = brink();
   spec["network"]["loss"] = 0;
-  const Found found = find_brink(spec);
+  const FoundRisk found = find_brink(spec);
   EXPECT_EQ(found.risk[0], (std::vector<double>(4, 0)));
   EXPECT_EQ(found.rate, 0);
 }
