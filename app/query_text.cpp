@@ -10,6 +10,7 @@
 #include "app/reports.hpp"
 #include "results/read_info.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
@@ -18,10 +19,10 @@ constexpr std::size_t kMostTuples = 6;
 constexpr std::size_t kMostNames = 12;
 
 /// A number at a length that can be read: exact if that is short, else rounded to six digits.
-std::string short_number(const Rational& value) {
+std::string exact_or_short(const Rational& value) {
   constexpr std::size_t kShort = 12;
   std::string text = to_text(value);
-  return text.size() <= kShort ? text : fmt::format("{:.6g}", nearest_double(value));
+  return text.size() <= kShort ? text : short_number(value);
 }
 
 /// The document that --json prints, as text. Numbers in it are rounded: exact ones are looked up.
@@ -74,7 +75,7 @@ class AnswerText {
   [[nodiscard]] std::string state_text() const {
     std::string text;
     for (std::size_t i = 0; i < grid_.size(); ++i)
-      text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", grid_[i].name, short_number(state_[i]));
+      text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", grid_[i].name, exact_or_short(state_[i]));
     return text;
   }
 
@@ -84,9 +85,9 @@ class AnswerText {
     std::string text;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       text += text.empty() ? "" : ", ";
-      text += grid_[i].discrete ? fmt::format("{} = {}", grid_[i].name, short_number(box.centre[i]))
-                                : fmt::format("{} in [{}, {})", grid_[i].name, short_number(box.lower[i]),
-                                              short_number(box.upper[i]));
+      text += grid_[i].discrete ? fmt::format("{} = {}", grid_[i].name, exact_or_short(box.centre[i]))
+                                : fmt::format("{} in [{}, {})", grid_[i].name, exact_or_short(box.lower[i]),
+                                              exact_or_short(box.upper[i]));
     }
     return text;
   }
@@ -96,10 +97,10 @@ class AnswerText {
     std::size_t i = 0;
     while (outside["state"] != grid_[i].name) ++i;
     const GridDimension& dimension = grid_[i];
-    const std::string value = fmt::format("{} = {}", dimension.name, short_number(state_[i]));
+    const std::string value = fmt::format("{} = {}", dimension.name, exact_or_short(state_[i]));
     if (outside["reason"] == "off_grid") {
       return fmt::format("no state of the system: {} is none of {} + k * {}", value,
-                         short_number(dimension.first), short_number(dimension.step));
+                         exact_or_short(dimension.first), exact_or_short(dimension.step));
     }
     const std::string side = text_of(outside["side"]);
     if (!answer_["safe"].is_null()) {
@@ -110,7 +111,7 @@ class AnswerText {
     const Rational low = dimension.first - dimension.radius();
     const Rational high = dimension.point(dimension.count - 1) + dimension.radius();
     return fmt::format("outside: {} lies {} the domain, {} in [{}, {}{}; the results do not cover it", value,
-                       side, dimension.name, short_number(low), short_number(high),
+                       side, dimension.name, exact_or_short(low), exact_or_short(high),
                        dimension.discrete ? "]" : ")");
   }
 
@@ -217,7 +218,7 @@ class AnswerText {
   [[nodiscard]] std::string tuple_text(const std::vector<std::int32_t>& inputs, std::size_t action) const {
     std::string text;
     for (const Rational& value : values_of(form_.spec(), inputs, action))
-      text += (text.empty() ? "" : ", ") + short_number(value);
+      text += (text.empty() ? "" : ", ") + exact_or_short(value);
     return inputs.size() == 1 ? text : "(" + text + ")";
   }
 

@@ -165,12 +165,6 @@ class PartitionAnswer {
     return fmt::format(" <span class=\"note\">({}{})</span>", before, text);
   }
 
-  static std::string capital(std::string text) {
-    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
-      text.front() = static_cast<char>(text.front() - 'a' + 'A');
-    return text;
-  }
-
   const ResultsReader& results_;
   const StoredPartition& stored_;
   const AnswerPolicy& policy_;

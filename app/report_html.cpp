@@ -63,6 +63,12 @@ std::string share_text(std::uint64_t count, std::uint64_t whole) {
   return fmt::format("{:.{}f} %", percent, percent < 10 || percent > 90 ? 1 : 0);
 }
 
+std::string capital(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+    text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text;
+}
+
 std::string states_text(std::uint64_t count) {
   return grouped(count) + (count == 1 ? " state" : " states");
 }

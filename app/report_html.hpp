@@ -30,6 +30,9 @@ namespace coordreq {
 /// "3.3 %" of what; never 0 or 100 unless it is none or all.
 [[nodiscard]] std::string share_text(std::uint64_t count, std::uint64_t whole);
 
+/// The text with a capital letter in front.
+[[nodiscard]] std::string capital(std::string text);
+
 /// "1 state", "1,234 states".
 [[nodiscard]] std::string states_text(std::uint64_t count);
 

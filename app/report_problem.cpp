@@ -10,13 +10,10 @@
 #include "export/report_page.hpp"
 #include "spec/names_behind.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
-
-std::string number_text(const Rational& value) {
-  return fmt::format("{:.6g}", nearest_double(value));
-}
 
 /// "The agents a and b", "The 12 agents".
 std::string agents_text(const ProblemSpec& spec) {
@@ -35,8 +32,9 @@ std::string agents_text(const ProblemSpec& spec) {
 /// "-1 to 1 m/s, 41 values".
 std::string input_values(const InputSpec& input) {
   const auto [low, high] = std::minmax_element(input.values.begin(), input.values.end());
-  if (input.values.size() == 1) return with_unit(number_text(*low), input.unit);
-  return fmt::format("{}, {} values", with_unit(number_text(*low) + " to " + number_text(*high), input.unit),
+  if (input.values.size() == 1) return with_unit(short_number(*low), input.unit);
+  return fmt::format("{}, {} values",
+                     with_unit(short_number(*low) + " to " + short_number(*high), input.unit),
                      grouped(static_cast<std::uint64_t>(input.values.size())));
 }
 
@@ -61,8 +59,8 @@ std::string states_table(const ProblemSpec& spec) {
     const StateSpec& state = spec.states[i];
     rows += html_row(
         {html_code(state.name),
-         with_unit(number_text(state.grid.first) + " to " + number_text(state.grid.last()), state.unit),
-         with_unit(number_text(state.grid.step), state.unit), grouped(state.grid.count),
+         with_unit(short_number(state.grid.first) + " to " + short_number(state.grid.last()), state.unit),
+         with_unit(short_number(state.grid.step), state.unit), grouped(state.grid.count),
          html_code(spec.dynamics.equations[i].text)});
   }
   return html_table("State",
@@ -74,7 +72,7 @@ std::string disturbances_table(const ProblemSpec& spec) {
   std::string rows;
   for (const DisturbanceSpec& disturbance : spec.disturbances) {
     rows += html_row({html_code(disturbance.name),
-                      with_unit(number_text(disturbance.lower) + " to " + number_text(disturbance.upper),
+                      with_unit(short_number(disturbance.lower) + " to " + short_number(disturbance.upper),
                                 disturbance.unit)});
   }
   return html_table("Disturbances", {"disturbance", "anything from"}, rows);
@@ -128,7 +126,7 @@ std::string report_title(const ProblemSpec& spec) {
 std::string report_task(const ResultsReader& results) {
   const ProblemSpec& spec = results.spec();
   const std::string every =
-      spec.dynamics.unit.empty() ? "step" : with_unit(number_text(spec.dynamics.period), spec.dynamics.unit);
+      spec.dynamics.unit.empty() ? "step" : with_unit(short_number(spec.dynamics.period), spec.dynamics.unit);
   std::string html;
   if (report_title(spec) != spec.name)
     html += fmt::format("<p class=\"lead\">{}</p>\n", html_code(spec.name));

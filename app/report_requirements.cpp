@@ -14,12 +14,6 @@
 namespace coordreq {
 namespace {
 
-std::string capital(std::string text) {
-  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
-    text.front() = static_cast<char>(text.front() - 'a' + 'A');
-  return text;
-}
-
 std::string requirement_verdict(const Json& entry) {
   const auto cells = entry["cells"].get<std::uint64_t>();
   if (entry["holds"]) return fmt::format("<span class=\"good\">met</span> by all {}", states_text(cells));

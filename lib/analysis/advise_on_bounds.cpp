@@ -9,13 +9,10 @@
 #include "base/grouped.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/state_bounds.hpp"
+#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
-
-std::string number(const Rational& value) {
-  return fmt::format("{:.6g}", nearest_double(value));
-}
 
 /// Cells of a state: faces lie at face + k * step.
 struct Faces {
@@ -47,8 +44,8 @@ std::optional<std::string> remedy(const StateSpec& state, const std::vector<Rati
     const Rational centre = values.front() + step / 2;
     const Rational origin =
         centre - step * Rational(mpz_class(static_cast<long>(floor_to_int(centre / step))));
-    return (divisor == 1 ? "" : fmt::format("\"step\": {} and ", number(step))) +
-           fmt::format("\"origin\": {}", number(origin));
+    return (divisor == 1 ? "" : fmt::format("\"step\": {} and ", short_number(step))) +
+           fmt::format("\"origin\": {}", short_number(origin));
   }
   return std::nullopt;
 }
@@ -61,7 +58,7 @@ struct CutCells {
   void add(const StateSpec& state, const std::vector<Rational>& values) {
     std::vector<std::string> cut;
     for (const Rational& value : values)
-      if (cuts_a_cell(state, value)) cut.push_back(number(value));
+      if (cuts_a_cell(state, value)) cut.push_back(short_number(value));
     if (cut.empty()) return;
     locations.push_back(state.name + " at " + list_text(cut));
     if (const std::optional<std::string> how = remedy(state, values)) mended[*how].push_back(state.name);

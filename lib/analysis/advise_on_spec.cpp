@@ -9,15 +9,12 @@
 #include "spec/names_behind.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/scope.hpp"
+#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
 
 using Node = JsonDocument::Node;
-
-std::string short_number(const Rational& value) {
-  return fmt::format("{:.6g}", nearest_double(value));
-}
 
 /// Whether points from first to last, a step apart, are what somebody means by the domain [lower, upper]:
 /// they meet its ends, or the cells around them do.

@@ -31,12 +31,6 @@ NumberRows rows_of_digests(const std::string& digests) {
                      static_cast<std::int64_t>(digests.size()) / kLength, kLength);
 }
 
-/// The integer under a key of an object; 0 if it is none.
-std::int64_t integer_of(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
-}
-
 }  // namespace
 
 std::string CheckpointSegments::manifest(const std::string& folder) {
@@ -113,7 +107,7 @@ void CheckpointSegments::settle(bool is_kept) {
 bool CheckpointSegments::take(CheckpointReader& manifest) {
   const Json head = manifest.begin(kSection);
   if (head.is_null()) return true;
-  const std::int64_t number = integer_of(head, "set"), count = integer_of(head, "parts");
+  const std::int64_t number = integer_or_zero(head, "set"), count = integer_or_zero(head, "parts");
   if (number < 1 || count < 1 || count > kMostSegments) return false;
   const auto segments = static_cast<std::size_t>(count);
   set_ = {.number = number, .bounds = std::vector<std::int64_t>(segments + 1), .digests = {}};

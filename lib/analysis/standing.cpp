@@ -109,15 +109,12 @@ class StandingSearch {
   std::vector<double> slots_;
 };
 
-bool stops(const StateSpec& state) {
-  return state.below == Outside::stop || state.above == Outside::stop;
-}
-
 /// Whether something that is said of standing states would be right.
 bool may_ask(const ProblemSpec& spec) {
   const std::size_t known = spec.states.size() + spec.inputs.size();
   if (spec.dynamics.time == Time::discrete || spec.controller.synthesis == Synthesis::given ||
-      spec.controller.file || std::ranges::none_of(spec.states, stops))
+      spec.controller.file ||
+      std::ranges::none_of(spec.states, [](const StateSpec& state) { return state.has(Outside::stop); }))
     return false;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     if (spec.dynamics.is_kept(i)) return false;

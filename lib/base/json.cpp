@@ -27,6 +27,11 @@ bool is_json(std::string_view text, JsonComments comments) {
   return Json::accept(text, comments == JsonComments::skipped);
 }
 
+std::int64_t integer_or_zero(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+}
+
 std::string compact_json(const Json& json) {
   return dump(json, -1);
 }

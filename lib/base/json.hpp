@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ enum class JsonComments { none, skipped };
 /// The same; a discarded value for what is no JSON.
 [[nodiscard]] Json parse_json_if_valid(std::string_view text);
 [[nodiscard]] bool is_json(std::string_view text, JsonComments comments = JsonComments::none);
+
+/// The integer under a key of an object; 0 if there is none.
+[[nodiscard]] std::int64_t integer_or_zero(const Json& object, const char* key);
 
 /// On one line, without an end of line. File names may hold bytes that are not UTF-8: those become U+FFFD.
 [[nodiscard]] std::string compact_json(const Json& json);

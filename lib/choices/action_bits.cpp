@@ -33,15 +33,18 @@ void write_row(const Controller& controller, const ActionGrouping& grouping, std
     std::vector<Word>& target = projection[tuple.chosen(c)];
     for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
   } while (tuple.next());
-  for (std::size_t a = 0; a < groups.classes[c]->group_of.size(); ++a) {
-    for_each_bit(projection[groups.classes[c]->group_of[a]], [&](std::int64_t x) {
-      std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
-      byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
-    });
-  }
+  for (std::size_t a = 0; a < groups.classes[c]->group_of.size(); ++a)
+    add_action(projection[groups.classes[c]->group_of[a]], a, bytes, cells);
 }
 
 }  // namespace
+
+void add_action(ConstRow row, std::size_t action, std::int64_t bytes, std::uint8_t* cells) {
+  for_each_bit(row, [&](std::int64_t x) {
+    std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(action / 8)];
+    byte = static_cast<std::uint8_t>(byte | 1U << (action % 8));
+  });
+}
 
 std::vector<std::uint8_t> action_bits(const Controller& controller, const ActionGrouping& grouping,
                                       std::size_t c, std::int64_t first_row, std::int64_t last_row) {

@@ -18,6 +18,9 @@ namespace coordreq {
                                                     const ActionGrouping& grouping, std::size_t c,
                                                     std::int64_t first_row, std::int64_t last_row);
 
+/// Adds an action to the sets of some cells of a row. @param cells [row_length, bytes]
+void add_action(ConstRow row, std::size_t action, std::int64_t bytes, std::uint8_t* cells);
+
 /// Fills the segment [begin, begin + count) of these bytes over the whole grid, row-major.
 void fill_action_bits(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
                       std::uint64_t begin, std::uint64_t count, void* out);

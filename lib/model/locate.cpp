@@ -6,12 +6,6 @@
 namespace coordreq {
 namespace {
 
-mpz_class floor_of(const Rational& q) {
-  mpz_class result;
-  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-  return result;
-}
-
 /// Position in units of cells: cell k is [k, k + 1), point k of a discrete dimension is k.
 Rational position(const GridDimension& dimension, const Rational& value) {
   const Rational steps = (value - dimension.first) / dimension.step;
@@ -24,7 +18,7 @@ std::int64_t index_of(const GridDimension& dimension, const Rational& value) {
   if (dimension.periodic()) {
     const mpz_class count(static_cast<long>(dimension.count));
     mpz_class k;
-    mpz_fdiv_r(k.get_mpz_t(), floor_of(coordinate).get_mpz_t(), count.get_mpz_t());
+    mpz_fdiv_r(k.get_mpz_t(), whole_below(coordinate).get_mpz_t(), count.get_mpz_t());
     return k.get_si();
   }
   const std::int64_t k = floor_to_int(coordinate);

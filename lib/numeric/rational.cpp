@@ -117,12 +117,6 @@ std::optional<double> small_integer(const Rational& q) {
   return mpz_get_d(q.get_num_mpz_t());
 }
 
-mpz_class whole_below(const Rational& q) {
-  mpz_class result;
-  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-  return result;
-}
-
 std::int64_t saturate(const mpz_class& value) {
   static_assert(sizeof(long) == sizeof(std::int64_t));
   if (value > mpz_class(kSaturation)) return kSaturation;
@@ -184,6 +178,18 @@ Rational exact(double value) {
   return Rational(value);
 }
 
+mpz_class whole_below(const Rational& q) {
+  mpz_class result;
+  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
+  return result;
+}
+
+mpz_class whole_above(const Rational& q) {
+  mpz_class result;
+  mpz_cdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
+  return result;
+}
+
 Rational floor(const Rational& q) {
   return Rational(whole_below(q));
 }
@@ -193,9 +199,7 @@ std::int64_t floor_to_int(const Rational& q) {
 }
 
 std::int64_t ceil_to_int(const Rational& q) {
-  mpz_class result;
-  mpz_cdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-  return saturate(result);
+  return saturate(whole_above(q));
 }
 
 bool is_integer(const Rational& q) {

@@ -30,6 +30,9 @@ using Rational = mpq_class;
 /// Greatest integer <= q and least integer >= q, saturated to +-2^62 so that sums of two stay in range.
 [[nodiscard]] std::int64_t floor_to_int(const Rational& q);
 [[nodiscard]] std::int64_t ceil_to_int(const Rational& q);
+/// The same, of any size.
+[[nodiscard]] mpz_class whole_below(const Rational& q);
+[[nodiscard]] mpz_class whole_above(const Rational& q);
 /// The greatest whole number that is not above q.
 [[nodiscard]] Rational floor(const Rational& q);
 [[nodiscard]] bool is_integer(const Rational& q);

@@ -14,8 +14,7 @@ AffineDynamics::AffineDynamics(const SystemSpec& spec) : spec_(&spec) {
 bool AffineDynamics::has_limit(std::size_t state) const {
   const std::vector<std::int32_t>& moving = dependencies_[state].moving;
   return std::any_of(moving.begin(), moving.end(), [&](std::int32_t j) {
-    const StateSpec& one = spec_->states[static_cast<std::size_t>(j)];
-    return one.below == Outside::stop || one.above == Outside::stop;
+    return spec_->states[static_cast<std::size_t>(j)].has(Outside::stop);
   });
 }
 

@@ -38,8 +38,7 @@ bool derivative_is_one(const SystemSpec& spec, std::size_t state) {
 }
 
 bool flow_shifts(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state) {
-  const StateSpec& one_state = spec.states[state];
-  if (one_state.below == Outside::stop || one_state.above == Outside::stop) return false;
+  if (spec.states[state].has(Outside::stop)) return false;
   // A parameter has the equation 0, which mentions nothing.
   return std::none_of(dependencies.moving.begin(), dependencies.moving.end(), [&](std::int32_t j) {
     return mentions(spec.dynamics.equations[at(j)], spec.state_slot(state));
@@ -61,7 +60,7 @@ Interval range_of(const InputSpec& input) {
 }
 
 bool has_measured_limit(const StateSpec& state) {
-  const bool saturates = state.below == Outside::saturate || state.above == Outside::saturate;
+  const bool saturates = state.has(Outside::saturate);
   return saturates && state.measurement_error > 0;
 }
 

@@ -81,11 +81,6 @@ std::ifstream open_checkpoint(const std::string& path) {
   return file;
 }
 
-std::int64_t positive(const Json& head, const char* key) {
-  const auto found = head.find(key);
-  return found != head.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
-}
-
 }  // namespace
 
 CheckpointWriter::CheckpointWriter(const std::string& path, std::string where, const Json& header,
@@ -205,8 +200,8 @@ class CheckpointReader::Scan {
   List read_list(const Json& head) {
     const auto type = head.find("type");
     List list{.type = type != head.end() && type->is_string() ? type->get<std::string>() : "",
-              .rows = positive(head, "rows"),
-              .length = positive(head, "length"),
+              .rows = integer_or_zero(head, "rows"),
+              .length = integer_or_zero(head, "length"),
               .offset = reader_.file_.tellg()};
     const std::int64_t number_bytes = list.type.size() == 2 ? list.type[1] - '0' : 0;
     std::int64_t bytes = 0;

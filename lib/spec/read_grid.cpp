@@ -11,24 +11,12 @@ namespace {
 
 using Node = JsonDocument::Node;
 
-/// Greatest integer <= q and least integer >= q, of any size.
-mpz_class floor_of(const Rational& q) {
-  mpz_class result;
-  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-  return result;
-}
-mpz_class ceil_of(const Rational& q) {
-  mpz_class result;
-  mpz_cdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-  return result;
-}
-
 GridSpec grid_by_step(const Scope& scope, const Node& object, const Rational& lower, const Rational& upper) {
   const Rational step = scope.number(object["step"]);
   if (step <= 0) throw SpecError("expected a step > 0, found " + to_text(step), object["step"].pointer());
   const Rational origin = object.has("origin") ? scope.number(object["origin"]) : Rational(0);
-  const mpz_class first = ceil_of((lower - origin) / step);
-  const mpz_class count = floor_of((upper - origin) / step) - first + 1;
+  const mpz_class first = whole_above((lower - origin) / step);
+  const mpz_class count = whole_below((upper - origin) / step) - first + 1;
   if (count < 1) {
     throw SpecError(fmt::format("no grid point {} + k*{} lies in [{}, {}]", to_text(origin), to_text(step),
                                 to_text(lower), to_text(upper)),

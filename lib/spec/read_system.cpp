@@ -136,7 +136,7 @@ UpdateSpec read_update(const Scope& scope, const Node& node, const StateSpec& st
   if (!state.discrete)
     throw SpecError(fmt::format("{} is no discrete state, expected an equation", quote_text(state.name)),
                     node.pointer());
-  if (state.below == Outside::stop || state.above == Outside::stop) {
+  if (state.has(Outside::stop)) {
     throw SpecError(
         fmt::format("{} jumps at samples, expected another 'outside' than 'stop'", quote_text(state.name)),
         node.pointer());

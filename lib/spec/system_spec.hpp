@@ -26,6 +26,9 @@ struct StateSpec {
   Rational measurement_error = 0;
   Outside below = Outside::unsafe;
   Outside above = Outside::unsafe;
+
+  /// Whether the rule holds below or above.
+  [[nodiscard]] bool has(Outside rule) const { return below == rule || above == rule; }
 };
 
 struct InputSpec {

@@ -56,6 +56,10 @@ std::string quote_text(std::string_view text) {
   return "'" + one_line(text.substr(0, end)) + "...'";
 }
 
+std::string short_number(const Rational& value) {
+  return fmt::format("{:.6g}", nearest_double(value));
+}
+
 std::string quote_list(const std::vector<std::string>& names, std::string_view joiner) {
   std::string list;
   for (std::size_t i = 0; i < names.size(); ++i) {

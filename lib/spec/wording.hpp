@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "numeric/rational.hpp"
+
 // How messages spell what a user typed. Everything fits one line of a terminal: control characters are
 // escaped, long texts are cut.
 namespace coordreq {
@@ -13,6 +15,9 @@ namespace coordreq {
 
 /// 'text', one line, at most about 60 characters.
 [[nodiscard]] std::string quote_text(std::string_view text);
+
+/// A number rounded to six digits.
+[[nodiscard]] std::string short_number(const Rational& value);
 
 /// "'a'", "'a' or 'b'", "'a', 'b' or 'c'" with `joiner` "or".
 [[nodiscard]] std::string quote_list(const std::vector<std::string>& names, std::string_view joiner);

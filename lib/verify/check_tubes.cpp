@@ -17,9 +17,8 @@ namespace {
 bool may_go_beyond(const ProblemSpec& spec) {
   const std::vector<std::uint32_t> states = spec.safe.variables();
   return spec.abstraction.safe != Membership::center &&
-         std::any_of(states.begin(), states.end(), [&](std::uint32_t i) {
-           return spec.states[i].below == Outside::saturate || spec.states[i].above == Outside::saturate;
-         });
+         std::any_of(states.begin(), states.end(),
+                     [&](std::uint32_t i) { return spec.states[i].has(Outside::saturate); });
 }
 
 std::vector<std::uint8_t> beyond_limits(const ProblemSpec& spec, const Abstraction& analysis,

@@ -28,10 +28,6 @@ std::vector<std::vector<ArbSpan>> boxes_in(const InputSpace::Dimension& input) {
   return result;
 }
 
-bool stops(const StateSpec& state) {
-  return state.below == Outside::stop || state.above == Outside::stop;
-}
-
 }  // namespace
 
 std::vector<std::size_t> seams_that_jump(const SystemSpec& spec, const Influences& influences) {
@@ -50,12 +46,12 @@ std::vector<std::size_t> seams_that_jump(const SystemSpec& spec, const Influence
 
 bool has_stops(const SystemSpec& spec, const Influences& influences) {
   return std::any_of(influences.moving.begin(), influences.moving.end(),
-                     [&](std::size_t j) { return stops(spec.states[j]); });
+                     [&](std::size_t j) { return spec.states[j].has(Outside::stop); });
 }
 
 bool flows_alike(const SystemSpec& spec, const Influences& influences, std::size_t state) {
   const std::uint32_t slot = spec.state_slot(state);
-  if (stops(spec.states[state])) return false;
+  if (spec.states[state].has(Outside::stop)) return false;
   return std::none_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t j) {
     const std::vector<std::uint32_t> used = spec.dynamics.equations[j].variables();
     return std::find(used.begin(), used.end(), slot) != used.end();

@@ -227,8 +227,7 @@ class StoppedFlow {
 
  private:
   [[nodiscard]] bool stops(std::size_t j) const {
-    const StateSpec& state = spec_.states[influences_.moving[j]];
-    return state.below == Outside::stop || state.above == Outside::stop;
+    return spec_.states[influences_.moving[j]].has(Outside::stop);
   }
 
   [[nodiscard]] SampledMap::Rate rate_of(std::size_t j) const {

@@ -53,6 +53,10 @@ std::string CheckedCell::location() const {
   return location_of(*context_.grid, cell_);
 }
 
+void add_wrong(Tally& tally, const CheckedCell& cell, const char* what) {
+  tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.location(), what); });
+}
+
 void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) {
   tally.add_wrong(cell.number(), [&] {
     return fmt::format("{}: {}, expected {}", cell.location(), step_text(claimed), step_text(expected));

@@ -90,6 +90,8 @@ class CheckedCell {
   const void* remembered_ = nullptr;  ///< the values that memory_ is for
 };
 
+/// Adds a wrong claim to the tally.
+void add_wrong(Tally& tally, const CheckedCell& cell, const char* what);
 /// Adds a wrong claim about steps, coded as in `/delay`, to the tally.
 void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected);
 /// Adds stored choices to the tally, those that are missing as open if posts may be others than those of the

@@ -8,6 +8,7 @@
 
 #include "answers/convention/convention_row.hpp"
 #include "base/requires.hpp"
+#include "choices/action_bits.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/level_map.hpp"
 #include "engine/packed_pairs.hpp"
@@ -205,10 +206,7 @@ void write_row(ConventionRows<Level>& finder, const Controller& controller, cons
   const ActionGroups& groups = *row.groups.classes[agent];
   for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
     const ConstRow kept(row.kept[agent].data() + groups.group_of[a] * invariant.size(), invariant.size());
-    for_each_bit(kept, [&](std::int64_t x) {
-      std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
-      byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
-    });
+    add_action(kept, a, bytes, cells);
   }
 }
 

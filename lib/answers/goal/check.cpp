@@ -106,9 +106,9 @@ class GoalChecker : public CellChecker {
     tallies_.goal.add_checked(1);
     const SafeVerdict verdict = judge_.judge(cell.number(), is_claimed);
     if (!is_claimed && verdict == SafeVerdict::safe) {
-      wrong(tallies_.goal, cell, "does not count as the goal, but it is");
+      add_wrong(tallies_.goal, cell, "does not count as the goal, but it is");
     } else if (is_claimed && verdict == SafeVerdict::unsafe) {
-      wrong(tallies_.goal, cell, "counts as the goal, but it is not");
+      add_wrong(tallies_.goal, cell, "counts as the goal, but it is not");
     } else if (is_claimed && verdict == SafeVerdict::open) {
       tallies_.goal.add_unproven();
     }
@@ -162,10 +162,6 @@ class GoalChecker : public CellChecker {
       if (choices.has(u) && (cell.is_forbidden(u) || by_definition_.worst(cell, u) > limit)) return 0;
     }
     return steps_by_definition(cell, choices, partition.claims.delay, most, 0);
-  }
-
-  static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
-    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.location(), what); });
   }
 
   const CheckContext& context_;

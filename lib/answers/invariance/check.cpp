@@ -52,9 +52,9 @@ class SetChecker : public CellChecker {
     tallies_.safe.add_checked(1);
     const SafeVerdict verdict = judge_.judge(cell.number(), cell.is_safe());
     if (!cell.is_safe() && verdict == SafeVerdict::safe) {
-      wrong(tallies_.safe, cell, "not in S, but it is safe");
+      add_wrong(tallies_.safe, cell, "not in S, but it is safe");
     } else if (cell.is_safe() && verdict == SafeVerdict::unsafe) {
-      wrong(tallies_.safe, cell, "in S, but it is not safe");
+      add_wrong(tallies_.safe, cell, "in S, but it is not safe");
     } else if (cell.is_safe() && verdict == SafeVerdict::open) {
       tallies_.safe.add_unproven();
     }
@@ -62,7 +62,7 @@ class SetChecker : public CellChecker {
 
   void check_outside(const CheckedCell& cell) {
     tallies_.invariant.add_checked(1);
-    if (invariant_[cell.at()] != 0) wrong(tallies_.invariant, cell, "in K, but not in S");
+    if (invariant_[cell.at()] != 0) add_wrong(tallies_.invariant, cell, "in K, but not in S");
     check_collision_time(cell, 0);
   }
 
@@ -82,7 +82,7 @@ class SetChecker : public CellChecker {
       if (context_.sound_only()) {
         tallies_.invariant.add_unproven();
       } else {
-        wrong(tallies_.invariant, cell, "not in K, but coordinating agents can stay in K indefinitely");
+        add_wrong(tallies_.invariant, cell, "not in K, but coordinating agents can stay in K indefinitely");
       }
     }
     check_collision_time(cell, any ? one_more(best) : 1);
@@ -93,9 +93,9 @@ class SetChecker : public CellChecker {
     check_collision_time(cell, kUnbounded);
     tallies_.invariant.add_checked(1);
     if (context_.spec->controller.synthesis == Synthesis::given && !cell.all_stay())
-      wrong(tallies_.invariant, cell, "in K, but an allowed input leads out of it");
+      add_wrong(tallies_.invariant, cell, "in K, but an allowed input leads out of it");
     if (std::find(cell.admitted().begin(), cell.admitted().end(), 1) == cell.admitted().end())
-      wrong(tallies_.invariant, cell, "in K, but no allowed input keeps it there");
+      add_wrong(tallies_.invariant, cell, "in K, but no allowed input keeps it there");
   }
 
   void check_collision_time(const CheckedCell& cell, std::int32_t expected) {
@@ -114,10 +114,6 @@ class SetChecker : public CellChecker {
   void check_controller(const CheckedCell& cell) {
     add_choices(context_, tallies_.controller, cell, compare_bits(*controller_, cell.at(), cell.admitted()),
                 "joint inputs");
-  }
-
-  static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
-    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.location(), what); });
   }
 
   const CheckContext& context_;
