@@ -20,11 +20,13 @@ struct ThreadTeam::State {
   std::condition_variable start;
   std::condition_variable finished;
   std::vector<std::thread> threads;
-  std::atomic<std::uint64_t> generation{0};  // counts loops; a helper runs each generation once
-  std::atomic<int> busy{0};
+  int called = 0;            // helpers, by each loop
+  std::atomic<int> open{0};  // calls of a loop that no helper has answered yet
+  std::atomic<int> busy{0};  // calls that are open, or whose helper is still at work
   std::atomic<bool> stopping{false};
   std::atomic<std::size_t> started{0};  // helpers
-  int sleeping = 0;                     // helpers; under the mutex
+  int sleeping = 0;                     // helpers that nobody has woken; under the mutex
+  int woken = 0;                        // helpers that are yet to wake up; likewise
   bool main_sleeps = false;             // likewise
   ShortWait main_wait;                  // of the thread that calls for_each()
 
@@ -57,23 +59,34 @@ struct ThreadTeam::State {
   void help(int worker) {
     started.fetch_add(1);
     started.notify_one();
-    std::uint64_t seen = 0;
     ShortWait wait;
     for (;;) {
-      const auto called = [&] { return stopping.load() || generation.load() != seen; };
-      if (!wait.comes_soon(called)) {
+      const auto is_called = [&] { return stopping.load() || open.load() > 0; };
+      if (!wait.comes_soon(is_called)) {
         std::unique_lock lock(mutex);
-        ++sleeping;
-        start.wait(lock, called);
-        --sleeping;
+        if (!is_called()) sleep(lock);
       }
       if (stopping) return;
-      seen = generation;
+      if (!answer()) continue;
       run(worker);
       if (busy.fetch_sub(1) != 1) continue;
       const std::lock_guard lock(mutex);
       if (main_sleeps) finished.notify_one();
     }
+  }
+
+  void sleep(std::unique_lock<std::mutex>& lock) {
+    ++sleeping;
+    start.wait(lock, [&] { return stopping.load() || woken > 0; });
+    --woken;
+  }
+
+  /// Takes a call. @returns false if none is open
+  bool answer() {
+    int left = open;
+    while (left > 0 && !open.compare_exchange_weak(left, left - 1)) {
+    }
+    return left > 0;
   }
 
   /// The process may fork, and then the child must not wait for a lock that a thread held as it started: with
@@ -82,15 +95,23 @@ struct ThreadTeam::State {
     for (std::size_t n = started; n < threads.size(); n = started) started.wait(n);
   }
 
+  /// Helpers that are awake answer sooner than those that sleep, of which only as many are woken as are
+  /// missing.
   void call_helpers() {
     const std::lock_guard lock(mutex);
     failure = nullptr;
-    busy = static_cast<int>(threads.size());
-    ++generation;
-    if (sleeping > 0) start.notify_all();
+    busy = called;
+    open = called;
+    for (int awake = static_cast<int>(threads.size()) - sleeping; awake < called; ++awake) {
+      --sleeping;
+      ++woken;
+      start.notify_one();
+    }
   }
 
+  /// Calls that are still open are taken back: nothing is left to do.
   void wait_for_helpers() {
+    busy -= open.exchange(0);
     const auto done = [&] { return busy.load() == 0; };
     if (main_wait.comes_soon(done)) return;
     std::unique_lock lock(mutex);
@@ -113,6 +134,8 @@ ThreadTeam::ThreadTeam(int threads) : state_(std::make_unique<State>()) {
     }
   }
   state_->wait_until_started();
+  // More threads than processors would wait for one another. On one processor one helper works all the same.
+  state_->called = std::min(this->size(), std::max(2, usable_processors())) - 1;
 }
 
 ThreadTeam::~ThreadTeam() {

@@ -52,6 +52,18 @@ TEST(ThreadTeam, RunsManyShortLoops) {
   EXPECT_EQ(sum, 2000 * 28);
 }
 
+TEST(ThreadTeam, TakesShortAndLongLoopsOfMoreThreadsThanProcessors) {
+  ThreadTeam team(40);
+  std::atomic<std::int64_t> sum = 0;
+  for (int loop = 0; loop < 500; ++loop) {
+    team.for_each(loop % 3 == 0 ? 200 : 2, 1, [&](ThreadTeam::Range range, int) {
+      sum += range.begin;
+      if (range.begin % 50 == 49) std::this_thread::yield();
+    });
+  }
+  EXPECT_EQ(sum, 167 * 19900 + 333);
+}
+
 TEST(ThreadTeam, TellsHowFarALoopHasCome) {
   for (const int threads : {1, 3}) {
     ThreadTeam team(threads);
