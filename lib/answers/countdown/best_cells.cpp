@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "model/outside.hpp"
 
@@ -17,10 +19,9 @@ bool is_arbitrary(const GridDimension& dimension, bool above) {
   return !dimension.discrete && dimension.count > 1 && (rule.blocks || rule.resets);
 }
 
-/// The sides that the best cells in some rows touch.
+/// The sides that some of the best cells touch.
 struct Touched {
-  std::vector<std::int64_t> sides;  ///< [2 * dimension + above] more than 0: some cell is at the side
-  std::int64_t inside = 0;          ///< more than 0: some cell is at no side
+  explicit Touched(const UniformGrid& grid) : cells(2 * grid.size() + 1, 0) {}
 
   void add(const UniformGrid& grid, std::int64_t cell) {
     bool is_inside = true;
@@ -28,12 +29,23 @@ struct Touched {
       const std::int64_t index = grid.index(cell, i);
       for (const bool above : {false, true}) {
         if (index != (above ? grid[i].count - 1 : 0) || !is_arbitrary(grid[i], above)) continue;
-        ++sides[2 * i + (above ? 1 : 0)];
+        ++cells[2 * i + (above ? 1 : 0)];
         is_inside = false;
       }
     }
-    if (is_inside) ++inside;
+    if (is_inside) ++cells.back();
   }
+  [[nodiscard]] bool is_any_inside() const { return cells.back() > 0; }
+  /// None if some cell is at no side.
+  [[nodiscard]] std::vector<GridSide> sides() const {
+    std::vector<GridSide> result;
+    for (std::size_t s = 0; !is_any_inside() && s + 1 < cells.size(); ++s) {
+      if (cells[s] > 0) result.push_back({s / 2, s % 2 == 1});
+    }
+    return result;
+  }
+
+  std::vector<std::int64_t> cells;  ///< [2 * dimension + above] at that side, and last of all at none
 };
 
 /// The level of the cells with the longest finite delay; nothing if there is no finite delay above 0, or if
@@ -101,35 +113,66 @@ class SpecNumbers {
   std::vector<std::int64_t> strides_;  ///< [dimension]
 };
 
-/// The least number, in the order of the spec, of the cells with a level. Together.
-std::int64_t first_cell(const AnalysisContext& context, const DelayLayers& layers, std::int64_t level,
-                        const SpecNumbers& numbers, ThreadTeam& team) {
+/// What one thread has found of the cells with a level.
+struct BestCells {
+  std::int64_t first =
+      std::numeric_limits<std::int64_t>::max();  ///< the least number, in the order of the spec
+  Touched touched;                               ///< if no cell inside is known yet
+};
+
+/// @param run_end of a run of cells in row r that has the level, first at `first`
+template <class Level>
+void add_run(const UniformGrid& grid, const SpecNumbers& numbers, std::int64_t level, std::int64_t r,
+             const Level* row, const Level* first, const Level* run_end, BestCells& best) {
+  const auto cell = [&](const Level* at) { return r * grid.row_length() + (at - row); };
+  // Along a run numbers rise, so that the first cell of a run is enough.
+  best.first = std::min(best.first, numbers.of(cell(first)));
+  if (best.touched.is_any_inside()) return;  // that settles it
+  // Those between the ends of a run touch the same sides: one of them is enough, the first or the second.
+  for (const Level* const at : {first, find_level(first + 1, run_end, level), run_end - 1}) {
+    if (at != run_end && *at == static_cast<Level>(level)) best.touched.add(grid, cell(at));
+  }
+}
+
+/// Of all threads and processes. Together.
+BestCells find_cells(const AnalysisContext& context, const DelayLayers& layers, std::int64_t level,
+                     ThreadTeam& team) {
   constexpr std::int64_t kGrain = 1024;
-  const std::int64_t row_length = context.abstraction->grid.row_length();
-  const RowShare* const share = context.share ? &*context.share : nullptr;
-  std::vector<std::int64_t> first(static_cast<std::size_t>(team.size()),
-                                  std::numeric_limits<std::int64_t>::max());
+  const UniformGrid& grid = context.abstraction->grid;
+  const SpecNumbers numbers(grid);
+  BestCells all{.touched = Touched(grid)};
+  std::vector<BestCells> found(static_cast<std::size_t>(team.size()), all);
   layers.layers_of.visit([&](const auto& levels) {
-    for_each_local_row(team, share, levels.rows(), kGrain, [&](ThreadTeam::Range range, int worker) {
-      std::int64_t& least = first[static_cast<std::size_t>(worker)];
-      for (std::int64_t r = range.begin; r < range.end; ++r) {
-        const auto* const row = levels.row(r);
-        // Along a run numbers rise, so that the first cell of a run is enough.
-        for_each_run_with(level, levels, row, [&](const auto* at, const auto*) {
-          least = std::min(least, numbers.of(r * row_length + (at - row)));
-        });
-      }
-    });
+    for_each_local_row(team, context.shared_rows(), levels.rows(), kGrain,
+                       [&](ThreadTeam::Range range, int worker) {
+                         BestCells& best = found[static_cast<std::size_t>(worker)];
+                         for (std::int64_t r = range.begin; r < range.end; ++r) {
+                           const auto* const row = levels.row(r);
+                           for_each_run_with(level, levels, row, [&](const auto* first, const auto* run_end) {
+                             add_run(grid, numbers, level, r, row, first, run_end, best);
+                           });
+                         }
+                       });
   });
-  const std::int64_t least = *std::min_element(first.begin(), first.end());
-  return share == nullptr ? least : -context.ranks->greatest(-least);
+  for (const BestCells& best : found) {
+    all.first = std::min(all.first, best.first);
+    std::ranges::transform(all.touched.cells, best.touched.cells, all.touched.cells.begin(), std::plus());
+  }
+  if (context.share) {
+    all.first = -context.ranks->greatest(-all.first);
+    context.ranks->add(all.touched.cells);
+  }
+  return all;
 }
 
 }  // namespace
 
-void find_best_cell(const AnalysisContext& context, ThreadTeam& team, DelayLayers& layers) {
-  if (const std::optional<std::int64_t> level = best_level(layers))
-    layers.best_cell = first_cell(context, layers, *level, SpecNumbers(context.abstraction->grid), team);
+void find_best_cells(const AnalysisContext& context, ThreadTeam& team, DelayLayers& layers) {
+  const std::optional<std::int64_t> level = best_level(layers);
+  if (!level) return;
+  const BestCells best = find_cells(context, layers, *level, team);
+  layers.best_cell = best.first;
+  if (*level != LevelMap::kTop) layers.best_sides = best.touched.sides();
 }
 
 Json best_state_json(const AnalysisContext& context, const DelayLayers& layers) {
@@ -142,40 +185,6 @@ Json best_state_json(const AnalysisContext& context, const DelayLayers& layers) 
     json[grid[i].name] = nearest_double(grid[i].point(numbers.index(*layers.best_cell, i)));
   }
   return json;
-}
-
-std::vector<GridSide> sides_of_best_cells(const AnalysisContext& context, const DelayLayers& layers) {
-  const std::optional<std::int64_t> level = finite_level(layers);
-  if (!level) return {};
-  const std::int64_t last = *level;
-  const UniformGrid& grid = context.abstraction->grid;
-  Touched touched{std::vector<std::int64_t>(2 * grid.size(), 0)};
-  layers.layers_of.visit([&](const auto& levels) {
-    const std::int64_t begin = context.share ? context.share->local().begin : 0;
-    const std::int64_t end = context.share ? context.share->local().end : levels.rows();
-    // A single process may stop at the first best cell that is inside.
-    for (std::int64_t r = begin; r < end && (context.share || touched.inside == 0); ++r) {
-      const auto* const row = levels.row(r);
-      for_each_run_with(last, levels, row, [&](const auto* first, const auto* run_end) {
-        // Those between the ends of a run touch the same sides: one of them is enough, the first or the
-        // second.
-        for (const auto* const at : {first, find_level(first + 1, run_end, last), run_end - 1}) {
-          if (at != run_end && *at == last) touched.add(grid, r * grid.row_length() + (at - row));
-        }
-      });
-    }
-  });
-  if (context.share) {
-    touched.sides.push_back(touched.inside);
-    context.ranks->add(touched.sides);
-    touched.inside = touched.sides.back();
-    touched.sides.pop_back();
-  }
-  std::vector<GridSide> result;
-  for (std::size_t s = 0; touched.inside == 0 && s < touched.sides.size(); ++s) {
-    if (touched.sides[s] > 0) result.push_back({s / 2, s % 2 == 1});
-  }
-  return result;
 }
 
 }  // namespace coordreq

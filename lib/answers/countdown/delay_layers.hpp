@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -25,6 +26,12 @@ struct LeavingCounts {
   WaveCounts wave;
 };
 
+/// One end of a dimension of the grid of the abstraction.
+struct GridSide {
+  std::size_t dimension = 0;
+  bool above = false;
+};
+
 /// The delay layers of one partition, contract "Layers".
 struct DelayLayers {
   /// [cells]: 0 outside K, else delay(x) + 1, the number of layers that hold x; LevelMap::kTop where the
@@ -37,8 +44,13 @@ struct DelayLayers {
   WaveCounts counts;
   std::optional<LeavingCounts> leaving = {};  ///< nothing if such cells are not counted
   /// The first cell, in the order of the spec, with the longest finite delay, or, if none is above 0, with an
-  /// unbounded one; nothing if there is neither, or none is known to be the longest. See find_best_cell().
+  /// unbounded one; nothing if there is neither, or none is known to be the longest. See find_best_cells().
   std::optional<std::int64_t> best_cell = {};
+  /// The sides of the domain at which cells of the longest finite delay lie, if all these cells lie at a
+  /// side: then a larger domain may hold cells that tolerate more. Sides do not count that are limits of the
+  /// system itself (`stop`), that are `safe`, or that belong to discrete states. Empty if there is no finite
+  /// delay above 0, or if none is known to be the longest.
+  std::vector<GridSide> best_sides = {};
 
   /// The delay that LevelMap::kTop stands for.
   [[nodiscard]] std::int32_t top_delay() const {

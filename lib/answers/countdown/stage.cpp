@@ -19,7 +19,7 @@ void find_layers(const AnalysisContext& context, const RowEngine& engine, const 
   find_or_take_levels(work, engine, layer_bounds(context, base), layers.layers_of,
                       [&](const WaveWatch& watch) { return find(watch, layers.counts); });
   follow_from_levels(context.spec.coordination.max_delay, work.team, layers, beside);
-  find_best_cell(context, work.team, layers);
+  find_best_cells(context, work.team, layers);
 }
 
 }  // namespace coordreq

@@ -103,7 +103,7 @@ Json leaving_work_json(const LeavingCounts& counts) {
 /// The sides of the domain at which the cells of the longest finite delay lie, if all lie at one.
 Json best_at_json(const AnalysisContext& context, const DelayLayers& layers) {
   Json json = Json::array();
-  for (const GridSide& side : sides_of_best_cells(context, layers)) {
+  for (const GridSide& side : layers.best_sides) {
     const GridDimension& dimension = context.abstraction->grid[side.dimension];
     json.push_back({{"state", dimension.name},
                     {"value", nearest_double(dimension.point(side.above ? dimension.count - 1 : 0))}});
