@@ -43,11 +43,15 @@ FastRanges enclosed(const ConditionAxis::Ranges& exact) {
 
 /// The ranges of all indices of an axis in doubles; nothing if they are not needed often enough to keep
 /// them.
-std::vector<FastRanges> kept_ranges(const ConditionAxis& axis, std::int64_t queries) {
+std::vector<FastRanges> kept_ranges(const ConditionAxis& axis, std::int64_t queries, ThreadTeam& team) {
   constexpr std::int64_t kOften = 16;
   std::vector<FastRanges> result;
   if (queries < kOften) return result;
-  for (std::int64_t k = 0; k < axis.count; ++k) result.push_back(enclosed(axis.ranges(k)));
+  result.resize(static_cast<std::size_t>(axis.count));
+  team.for_each(axis.count, 16, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t k = range.begin; k < range.end; ++k)
+      result[static_cast<std::size_t>(k)] = enclosed(axis.ranges(k));
+  });
   return result;
 }
 
@@ -197,25 +201,25 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
     : along_(along), row_length_(axes[along].count) {
   lay_out(condition, axes, along);
   // Comparisons that depend on few variables settle most cells; the others are looked at one by one.
-  std::vector<Word> refuted;
-  std::vector<Word> proven;
+  ZeroedArray<Word> refuted;
+  ZeroedArray<Word> proven;
   if (!has_followers(condition, axes)) proven = proven_by_atoms(condition, axes, false, team);
-  if (!proven.empty()) {
+  if (proven.size() > 0) {
     bits_ = std::move(proven);
     refuted = proven_by_atoms(condition, axes, true, team);
   } else {
-    bits_.assign(static_cast<std::size_t>(rows_ * words_per_row()), 0);
+    bits_ = ZeroedArray<Word>(static_cast<std::size_t>(rows_ * words_per_row()));
   }
   std::vector<std::vector<FastRanges>> kept(axes.size());
-  if (along_in_use_) kept[along] = kept_ranges(axes[along], rows_);
-  for (const std::size_t slot : across_) kept[slot] = kept_ranges(axes[slot], rows_ / counts_[slot]);
+  if (along_in_use_) kept[along] = kept_ranges(axes[along], rows_, team);
+  for (const std::size_t slot : across_) kept[slot] = kept_ranges(axes[slot], rows_ / counts_[slot], team);
   const auto words = static_cast<std::size_t>(words_per_row());
   const std::int64_t grain = std::max<std::int64_t>(1, 4096 / row_length_);
   team.for_each(rows_, grain, [&](ThreadTeam::Range range, int) {
     std::optional<Filler> filler;  // most ranges need none
     for (std::int64_t r = range.begin; r < range.end; ++r) {
-      const std::size_t begin = refuted.empty() ? 0 : static_cast<std::size_t>(r) * words;
-      const std::span<const Word> settled(refuted.data() + begin, refuted.empty() ? 0 : words);
+      std::span<const Word> settled;
+      if (refuted.size() > 0) settled = {refuted.data() + static_cast<std::size_t>(r) * words, words};
       if (is_settled(r, settled)) continue;
       if (!filler) filler.emplace(condition, axes, kept, undecided, question);
       fill_row(r, settled, *filler);
@@ -267,7 +271,7 @@ void TruthTable::fill_row(std::int64_t position, std::span<const Word> refuted, 
 
 /// The bits where the atoms of the condition (or of its negation) prove it, laid out as this table; empty if
 /// it has no atoms of its own.
-std::vector<Word> TruthTable::proven_by_atoms(const Program& condition, std::span<const ConditionAxis> axes,
+ZeroedArray<Word> TruthTable::proven_by_atoms(const Program& condition, std::span<const ConditionAxis> axes,
                                               bool negated, ThreadTeam& team) const {
   const std::optional<ConditionAtoms> found = find_atoms(condition, negated);
   if (!found) return {};
@@ -276,7 +280,7 @@ std::vector<Word> TruthTable::proven_by_atoms(const Program& condition, std::spa
   for (const Program& atom : found->atoms)
     tables.emplace_back(atom, axes, along_, is_not_proven, team, Question::everywhere);
   const auto words = static_cast<std::size_t>(words_per_row());
-  std::vector<Word> result(static_cast<std::size_t>(rows_) * words, 0);
+  ZeroedArray<Word> result(static_cast<std::size_t>(rows_) * words);
   team.for_each(rows_, 256, [&](ThreadTeam::Range range, int) {
     std::vector<std::vector<Word>> values(found->nodes.size());
     std::vector<std::span<const Word>> rows, before;

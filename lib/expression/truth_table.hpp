@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "base/zeroed_array.hpp"
 #include "expression/program.hpp"
 #include "expression/sharp_condition.hpp"
 
@@ -79,7 +80,7 @@ class TruthTable {
     return position / strides_[slot] % counts_[slot];
   }
   void lay_out(const Program& condition, std::span<const ConditionAxis> axes, std::uint32_t along);
-  [[nodiscard]] std::vector<Word> proven_by_atoms(const Program& condition,
+  [[nodiscard]] ZeroedArray<Word> proven_by_atoms(const Program& condition,
                                                   std::span<const ConditionAxis> axes, bool negated,
                                                   ThreadTeam& team) const;
   [[nodiscard]] bool is_settled(std::int64_t position, std::span<const Word> refuted) const;
@@ -92,7 +93,7 @@ class TruthTable {
   std::vector<std::int64_t> counts_;   ///< by slot
   std::vector<std::int64_t> strides_;  ///< in rows
   std::vector<std::size_t> across_;    ///< slots in use but for that along the rows
-  std::vector<Word> bits_;
+  ZeroedArray<Word> bits_;
 };
 
 }  // namespace coordreq

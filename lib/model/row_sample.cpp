@@ -123,7 +123,7 @@ std::vector<std::size_t> joined_states(const ProblemSpec& spec, const std::vecto
 }  // namespace
 
 RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                      const std::vector<std::size_t>& along) {
+                      const std::vector<std::size_t>& along, std::int64_t most) {
   REQUIRES(std::ranges::all_of(along, [&](std::size_t state) { return state < spec.states.size(); }));
   std::vector<std::size_t> across;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
@@ -142,7 +142,7 @@ RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& sh
   std::vector<std::vector<Coordinate>> lanes;
   for (std::int64_t k = 0; k < kDrawnLanes; ++k) lanes.push_back(draw_coordinates(along));
   std::set<std::vector<std::int64_t>> found;
-  for (std::int64_t k = 0; k < result.drawn; ++k) {
+  for (std::int64_t k = 0; k < result.drawn && std::ssize(found) <= most; ++k) {
     const std::vector<Coordinate> row = draw_coordinates(across);
     safe.move_to(row);
     std::vector<std::int64_t> content;
@@ -173,7 +173,7 @@ std::optional<std::vector<std::size_t>> find_similar_rows(const ProblemSpec& spe
   }
   const std::vector<std::size_t> usual = joined_states(spec, order, movable);
   if (usual.size() < 2 || movable.size() > kMostChosenFrom) return std::nullopt;
-  std::int64_t least = work_of(sample_rows(spec, shapes, usual)) / kWorthIt;
+  std::int64_t least = work_of(sample_rows(spec, shapes, usual, kDrawnRows / 2)) / kWorthIt;
   std::optional<std::vector<std::size_t>> best;
   // The last of the order is the last of those to choose from, too, and is always taken.
   const std::size_t choices = std::size_t{1} << (movable.size() - 1);
@@ -184,7 +184,8 @@ std::optional<std::vector<std::size_t>> find_similar_rows(const ProblemSpec& spe
     }
     along.push_back(movable.back());
     if (along.size() == order.size() || cells_of(spec, along) > kMostJoinedLanes) continue;
-    const std::int64_t work = work_of(sample_rows(spec, shapes, along));
+    const std::int64_t most = std::min(kDrawnRows / 2, least / cells_of(spec, along));
+    const std::int64_t work = work_of(sample_rows(spec, shapes, along, most));
     if (work > least || (best && work == least)) continue;
     least = work;
     best = std::move(along);

@@ -25,9 +25,10 @@ struct RowSample {
 
 /// Draws rows along the states `along`, the same ones in every call. What a table says of a row is
 /// taken to differ with every state across rows on which it depends otherwise than by an offset.
+/// @param most no more rows are looked at once more than so many are different
 /// @pre `along` are some of the states, or all of them
 [[nodiscard]] RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                                    const std::vector<std::size_t>& along);
+                                    const std::vector<std::size_t>& along, std::int64_t most = INT64_MAX);
 
 /// The states that rows are best taken along, the fastest last: those for which few rows are different, as it
 /// is where states that only meet in a difference are on different sides (x1 and x2 across, y1 and y2 along).
