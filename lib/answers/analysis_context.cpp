@@ -134,7 +134,7 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   context.safe_cells = context.count(context.safe, &team);
   if (context.tiles && context.terminal)
     context.tiles_with_terminal = context.tiles->refined(
-        context.tiles->tables(), number_rows(*context.terminal, context.shared_rows()));
+        context.tiles->tables(), number_rows(*context.terminal, context.shared_rows(), &team), &team);
   context.terminal_cells = context.terminal ? context.count(*context.terminal, &team) : 0;
   context.order.emplace(abstraction.grid);
 }

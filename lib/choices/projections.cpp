@@ -359,7 +359,8 @@ void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equa
   const RowShare::Range run = local_rows(share, invariant.rows());
   number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
   const Tiles* const tiles = equal_.tiles;
-  if (tiles != nullptr) classes_ = tiles->refined(*equal.numbers, number_rows(invariant, share), &team);
+  if (tiles != nullptr)
+    classes_ = tiles->refined(*equal.numbers, number_rows(invariant, share, &team), &team);
   const auto has = [&](std::int64_t row) { return has_cells(invariant, row); };
   for_each_with_first(tiles, classes_, run, has, [&](std::int64_t row, std::int64_t first) {
     if (first == row) found_.push_back({.row = row});

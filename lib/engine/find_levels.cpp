@@ -1,6 +1,7 @@
 #include "engine/find_levels.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <type_traits>
 #include <utility>
 
@@ -73,12 +74,14 @@ void copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels, 
 
 /// Whether some cell of any process has this level. Levels in gaps do not count.
 template <class Level>
-bool has_level(const LevelRows<Level>& levels, Level level) {
-  bool found = false;
+bool has_level(const LevelRows<Level>& levels, Level level, ThreadTeam& team) {
+  std::atomic<bool> found = false;
   const DifferentRows<Level> rows(levels);
-  rows.for_each({0, rows.size()}, [&](const Level* row, std::int64_t) {
-    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-      found = found || std::find(row + lane, row + lane + count, level) != row + lane + count;
+  team.for_each(rows.size(), 256, [&](ThreadTeam::Range range, int) {
+    rows.for_each(range, [&](const Level* row, std::int64_t) {
+      levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+        if (!found && std::find(row + lane, row + lane + count, level) != row + lane + count) found = true;
+      });
     });
   });
   return sum_of_all(levels.share(), found ? 1 : 0) > 0;
@@ -87,10 +90,10 @@ bool has_level(const LevelRows<Level>& levels, Level level) {
 /// False if a cell has the last finite level of the width: then cells at kTop may have finite levels beyond
 /// it.
 template <class Level>
-bool is_enough(const LevelRows<Level>& levels, bool rises, std::int64_t limit) {
+bool is_enough(const LevelRows<Level>& levels, bool rises, std::int64_t limit, ThreadTeam& team) {
   constexpr Level kTop = LevelRows<Level>::kTop;
-  if (rises) return !has_level(levels, Level{2});
-  return (limit >= 0 && limit < kTop - 1) || !has_level(levels, static_cast<Level>(kTop - 1));
+  if (rises) return !has_level(levels, Level{2}, team);
+  return (limit >= 0 && limit < kTop - 1) || !has_level(levels, static_cast<Level>(kTop - 1), team);
 }
 
 /// The limit in a width. Levels above it count as kTop, which is not too low, so that the wave can go on from
@@ -125,7 +128,7 @@ class LevelFinder {
     counts_.add(
         run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), *op, watch, team_, problem_.equal));
     if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {
-      if (!is_enough(levels, op->rises(), problem_.limit))
+      if (!is_enough(levels, op->rises(), problem_.limit, team_))
         return from(widened_and_bounded(std::move(levels), op->rises()));
     }
     return LevelMap(std::move(levels));

@@ -284,7 +284,7 @@ void put_rows(LevelRows<Level>& levels, ThreadTeam& team, const Fill& fill) {
     });
   }
   const std::int64_t most = std::clamp<std::int64_t>(kMostLevelsOfBatch / width, 1, levels.rows());
-  std::vector<Level> lanes(static_cast<std::size_t>(most * width));
+  ZeroedArray<Level> lanes(static_cast<std::size_t>(most * width));
   std::vector<std::uint64_t> ready(static_cast<std::size_t>(most));
   for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
     for (std::int64_t begin = run.begin; begin < run.end; begin += most) {

@@ -217,7 +217,7 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
                                  ThreadTeam* team) {
   const RowShare::Range local = local_rows(engine.share(), engine.rows());
   if (!are_possible(engine) || local.end - local.begin < kFewRows) return std::nullopt;
-  const Numbers content = number_rows(set, engine.share());
+  const Numbers content = number_rows(set, engine.share(), team);
   std::optional<Tiles> best;
   double least = kMostDifferent;
   // Units first: if as many are equal, fewer are looked up.
@@ -235,21 +235,32 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
   return best;
 }
 
-Numbers number_rows(const CellSet& set, const RowShare* share) {
+Numbers number_rows(const CellSet& set, const RowShare* share, ThreadTeam* team) {
+  constexpr std::int64_t kRows = 1 << 16, kGrain = 256;
   Interner interner;
   std::vector<std::int64_t> first;  // [number] the row that has come first
+  std::vector<std::uint64_t> hashes;
   Numbers result(static_cast<std::size_t>(set.rows()), 0);
+  const auto number_row = [&](std::int64_t r, std::uint64_t hash) {
+    std::uint32_t number = interner.find(
+        hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
+    if (number == Interner::kNone) {
+      number = interner.add(hash);
+      first.push_back(r);
+    }
+    result[static_cast<std::size_t>(r)] = number;
+  };
   for (const RowShare::Range run : held_rows(share, set.rows())) {
-    for (std::int64_t r = run.begin; r < run.end; ++r) {
-      std::uint64_t hash = 0;
-      for (const Word word : set.row(r)) hash = mixed_hash(hash, word);
-      std::uint32_t number = interner.find(
-          hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
-      if (number == Interner::kNone) {
-        number = interner.add(hash);
-        first.push_back(r);
-      }
-      result[static_cast<std::size_t>(r)] = number;
+    for (std::int64_t begin = run.begin; begin < run.end; begin += kRows) {
+      hashes.assign(static_cast<std::size_t>(std::min(kRows, run.end - begin)), 0);
+      for_each(team, std::ssize(hashes), kGrain, [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          std::uint64_t& hash = hashes[static_cast<std::size_t>(k)];
+          for (const Word word : set.row(begin + k)) hash = mixed_hash(hash, word);
+        }
+      });
+      for (std::size_t k = 0; k < hashes.size(); ++k)
+        number_row(begin + static_cast<std::int64_t>(k), hashes[k]);
     }
   }
   return result;

@@ -132,6 +132,7 @@ void for_each_with_first(const Tiles* tiles, const Tiles::Numbers& classes, RowS
 }
 
 /// [row] Equal numbers for equal rows of a set. @param share the rows held are numbered; null: all rows
-[[nodiscard]] Tiles::Numbers number_rows(const CellSet& set, const RowShare* share = nullptr);
+[[nodiscard]] Tiles::Numbers number_rows(const CellSet& set, const RowShare* share = nullptr,
+                                         ThreadTeam* team = nullptr);
 
 }  // namespace coordreq

@@ -78,7 +78,7 @@ class WaveBatch {
   std::optional<BatchCounts> run(std::span<const std::uint32_t> units, std::int64_t turn) {
     counts_ = {};
     dirty_.begin_batch();
-    share(std::ssize(units), kFewUnits, [&](std::int64_t k, Worker& worker) {
+    share(std::ssize(units), memo_.is_on() ? kFewAsked : kFewUnits, [&](std::int64_t k, Worker& worker) {
       choose(first_unit() + units[static_cast<std::size_t>(k)], turn + k * units_.rows(), worker);
     });
     list_tasks();
@@ -102,7 +102,8 @@ class WaveBatch {
   }
 
  private:
-  /// Fewer units are chosen from, and fewer rows are written, sooner than they are handed out.
+  /// Fewer units are chosen from, with the memo or without, and fewer rows written, sooner than handed out.
+  static constexpr std::int64_t kFewAsked = 16;
   static constexpr std::int64_t kFewUnits = 64;
   static constexpr std::int64_t kFewRows = 16;
 

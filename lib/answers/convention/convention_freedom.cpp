@@ -116,11 +116,12 @@ struct LikeRows {
 };
 
 LikeRows find_like_rows(const CellSet& invariant, RowShare::Range local, const RowShare* share,
-                        const Tiles* tiles) {
+                        const Tiles* tiles, ThreadTeam& team) {
   const auto rows = static_cast<std::size_t>(local.end - local.begin);
   LikeRows like{std::vector<std::int64_t>(rows, -1), std::vector<std::int64_t>(rows, 0)};
   Tiles::Numbers classes;
-  if (tiles != nullptr) classes = tiles->refined(tiles->tables(), number_rows(invariant, share));
+  if (tiles != nullptr)
+    classes = tiles->refined(tiles->tables(), number_rows(invariant, share, &team), &team);
   const auto has = [&](std::int64_t row) { return any_set(invariant.row(row)); };
   for_each_with_first(tiles, classes, local, has, [&](std::int64_t row, std::int64_t first) {
     like.first[static_cast<std::size_t>(row - local.begin)] = first;
@@ -165,7 +166,7 @@ ConventionFreedom find_convention(const Controller& controller, const ActionGrou
                                          std::vector<Count>(agents.size()));
   std::vector<std::vector<double>> sums(
       agents.size(), std::vector<double>(static_cast<std::size_t>(local.end - local.begin), 0));
-  const LikeRows like = find_like_rows(*controller.invariant, local, engine.share(), tiles);
+  const LikeRows like = find_like_rows(*controller.invariant, local, engine.share(), tiles, team);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<ConventionRows<Level>> finders;
     const PostReader<Level> posts(engine, levels);
