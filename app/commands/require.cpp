@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,11 +12,13 @@
 #include "app/reports.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
+#include "base/grouped.hpp"
 #include "cell/simulate.hpp"
 #include "cell/state_text.hpp"
 #include "model/locate.hpp"
 #include "results/results_reader.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -25,49 +26,25 @@ namespace {
 
 struct RequireOptions : CommonOptions {
   std::string results, axes, partition;
-  std::vector<std::optional<std::string>> limits =
-      std::vector<std::optional<std::string>>(6);  ///< by kLimits
+  std::vector<std::pair<const RequirementTraits*, std::string>> limits;  ///< requested
   std::optional<std::string> best;
   NamedValues given;
   bool csv = false;
 };
 
-/// The limits that can be requested, by their options.
-struct LimitOption {
-  RequirementKind kind;
-  const char* name;
-  const char* takes;
-  const char* description;
-};
-constexpr std::array kLimits = {
-    LimitOption{RequirementKind::min_delay, "--delay", "N",
-                "The silence to be tolerated: steps, or a time, e.g. 2s or 10min"},
-    LimitOption{RequirementKind::min_silence, "--silence", "N",
-                "The same by the communication-loss rule of the spec ('silence')"},
-    LimitOption{RequirementKind::min_blind_delay, "--blind", "N",
-                "The same for agents with their own observations only ('sees')"},
-    LimitOption{RequirementKind::min_approach_delay, "--approach", "N",
-                "The silence that costs no time on the way to the goal ('goal')"},
-    LimitOption{RequirementKind::max_arrival, "--arrival", "N",
-                "The steps, or the time, within which the goal can be forced ('goal')"},
-    LimitOption{RequirementKind::max_risk, "--risk", "P",
-                "The maximum probability of leaving the invariance set within the horizon ('risk')"}};
-
-/// The requested limit, of which there is one.
-std::pair<LimitOption, std::string> limit_of(const RequireOptions& options) {
-  std::optional<std::pair<LimitOption, std::string>> found;
-  for (std::size_t i = 0; i < kLimits.size(); ++i) {
-    if (!options.limits[i]) continue;
-    if (found)
-      throw UsageError(fmt::format("expected one limit, found {} too", found->first.name), kLimits[i].name);
-    found.emplace(kLimits[i], *options.limits[i]);
+/// @throws UsageError where not one limit is requested
+void check_limit(const RequireOptions& options) {
+  const auto& limits = options.limits;
+  if (limits.size() > 1) {
+    throw UsageError(fmt::format("expected one limit, found {} too", limits[0].first->option),
+                     limits[1].first->option);
   }
-  if (!found)
-    throw UsageError(
-        "missing --delay N, the silence to be tolerated, or one of --silence, --blind, --approach, --arrival "
-        "and "
-        "--risk");
-  return *found;
+  if (!limits.empty()) return;
+  std::vector<std::string> others;
+  for (const RequirementTraits& kind : requirement_kinds()) {
+    if (kind.option != nullptr && kind.kind != RequirementKind::min_delay) others.emplace_back(kind.option);
+  }
+  throw UsageError("missing --delay N, the silence to be tolerated, or one of " + list_text(others));
 }
 
 double risk_of(const std::string& text, const char* option) {
@@ -78,20 +55,20 @@ double risk_of(const std::string& text, const char* option) {
 
 /// @throws UsageError if the results do not have what is requested
 void set_limit(const RequireOptions& options, const ResultsReader& results, ToleranceQuestion& question) {
-  const auto [limit, text] = limit_of(options);
-  const RequirementTraits& kind = traits(limit.kind);
-  question.kind = limit.kind;
-  const std::string path = dataset_of(limit.kind, results.spec()).path;
+  const std::string& text = options.limits.front().second;
+  const RequirementTraits& kind = *options.limits.front().first;
+  question.kind = kind.kind;
+  const std::string path = dataset_of(kind.kind, results.spec()).path;
   if (!results.has(path)) {
     throw UsageError(
         fmt::format("the results have no {}, expected those of a spec with the key '{}'", path, kind.needs),
-        limit.name);
+        kind.option);
   }
   if (kind.is_probability) {
-    question.risk = risk_of(text, limit.name);
+    question.risk = risk_of(text, kind.option);
   } else {
     question.steps =
-        steps_or_time(text, results.spec().dynamics, limit.name,
+        steps_or_time(text, results.spec().dynamics, kind.option,
                       {.least = kind.is_upper_limit ? 0 : 1, .is_upper_limit = kind.is_upper_limit});
   }
 }
@@ -137,7 +114,7 @@ std::vector<TableSelection::Slice> given_of(const RequireOptions& options, const
 
 ExitCode run(const RequireOptions& options) {
   if (options.csv && options.json) throw UsageError("expected --csv or --json, found both", "--csv");
-  static_cast<void>(limit_of(options));
+  check_limit(options);
   if (options.axes.empty()) throw UsageError("missing --over STATE, the state over which to search");
   options.keep_to_memory();
   const ResultsReader results(options.results, options.max_memory);
@@ -161,8 +138,13 @@ ExitCode run(const RequireOptions& options) {
 Run declare_require(Options& options) {
   const auto args = std::make_shared<RequireOptions>();
   declare_results(options, args->results);
-  for (std::size_t i = 0; i < kLimits.size(); ++i)
-    options.option(args->limits[i], kLimits[i].name, kLimits[i].takes, kLimits[i].description, as_typed);
+  for (const RequirementTraits& kind : requirement_kinds()) {
+    if (kind.option == nullptr) continue;
+    options.option(kind.option, kind.is_probability ? "P" : "N", kind.asks,
+                   [args = args.get(), &kind](const auto& text, const auto& /*option*/) {
+                     args->limits.emplace_back(&kind, text);
+                   });
+  }
   options.option(args->axes, "--over", "STATES", "The state that is sought, or two with a comma between",
                  as_typed);
   options.option(args->given, "--given", "VALUES",

@@ -19,8 +19,10 @@ struct RequirementTraits {
   // In words; {steps} stands for the steps, {partition} for the name of the partition, {risk} for a risk.
   std::string claim;    ///< what is required of each cell: "delay of {partition} at least {steps}"
   std::string failing;  ///< what is the matter with one: "has a delay of {steps}"
-
-  bool is_probability = false;  ///< instead of steps
+  // Of `require`, which searches for states that meet it; null: it does not.
+  const char* option = nullptr;  ///< that takes the limit: "--delay"
+  const char* asks = nullptr;    ///< its description
+  bool is_probability = false;   ///< instead of steps
 
   /// The key of the worst value: "least_delay", "longest_arrival", "greatest_risk".
   [[nodiscard]] std::string worst() const {

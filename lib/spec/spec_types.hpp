@@ -40,11 +40,11 @@ enum class NetworkKind : std::uint8_t { automaton, delay, burst, weakly_hard, lo
 enum class RequirementKind : std::uint8_t {
   min_delay,
   invariant,
-  max_arrival,
-  min_approach_delay,
-  max_risk,
+  min_silence,
   min_blind_delay,
-  min_silence
+  min_approach_delay,
+  max_arrival,
+  max_risk
 };
 
 /// The value of the key `then`.
