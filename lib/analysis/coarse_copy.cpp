@@ -12,16 +12,18 @@ Rational rational(std::int64_t number) {
   return Rational(mpz_class(static_cast<long>(number)));
 }
 
-void leave_only(std::size_t partition, ProblemSpec& spec) {
-  CoordinationSpec& coordination = spec.coordination;
-  coordination = CoordinationSpec{.partitions = {coordination.partitions[partition]}, .max_delay = 1};
-  spec.network.reset();
-  spec.risk.reset();
-  spec.silence.reset();
-  if (!spec.ends_at_goal()) spec.goal.reset();  // else K rests on it
-  for (AgentSpec& agent : spec.agents) agent.sees.reset();
-  spec.requirements.clear();
-  spec.output = {};
+/// What K and the layers of a partition rest on.
+ProblemSpec part_of(const ProblemSpec& spec, std::size_t partition) {
+  ProblemSpec part{static_cast<const SystemSpec&>(spec)};
+  for (AgentSpec& agent : part.agents) agent.sees.reset();
+  part.safe = spec.safe;
+  if (spec.ends_at_goal()) {
+    part.goal = spec.goal;
+    part.goal_then = spec.goal_then;
+  }
+  part.controller = spec.controller;
+  part.coordination = {.partitions = {spec.coordination.partitions[partition]}, .max_delay = 1};
+  return part;
 }
 
 }  // namespace
@@ -53,8 +55,7 @@ std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t parti
   // Which conditions are undecided, and so the values of memories, follows from the grid.
   if (spec.controller.file || !spec.memory.empty()) return std::nullopt;
   for (std::int64_t factor = 1; factor <= 4096; factor = factor < 4 ? factor + 1 : factor * 3 / 2) {
-    CoarseCopy copy{.spec = spec, .factor = factor};
-    leave_only(partition, copy.spec);
+    CoarseCopy copy{.spec = part_of(spec, partition), .factor = factor};
     coarsen(copy.spec, factor);
     if (copy.spec.cells() <= most_cells && entries_of(table_shapes(copy.spec)) <= most_entries) return copy;
   }
