@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "answers/checking/posts.hpp"
+#include "answers/countdown/kinds.hpp"
 #include "answers/field.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/plan.hpp"
 #include "reach/table_shapes.hpp"
 #include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
-#include "spec/sight.hpp"
 #include "verify/outward_posts.hpp"
 
 namespace coordreq {
@@ -68,7 +68,8 @@ double bytes_of_posts(const ResultsReader& results) {
 double bytes_of_classes(const ResultsReader& results) {
   constexpr double kBytesOfClass = 400;
   const ProblemSpec& spec = results.spec();
-  const double answers = 1 + (spec.goal ? 1 : 0) + (spec.silence ? 1 : 0) + (has_limited_sight(spec) ? 1 : 0);
+  const auto answers = static_cast<double>(std::ranges::count_if(
+      kCountdownKinds, [&](const CountdownKind* kind) { return results.has(kind->layered); }));
   double classes = 0;
   for (const PartitionSpec& partition : spec.coordination.partitions)
     classes += answers * static_cast<double>(partition.classes.size());
