@@ -182,14 +182,11 @@ class RequirementChecker {
     if ((is_followed(requirement_.kind) && path.steps() > 0) != (path.seen != ResultPath::kNotFollowed))
       return wrong("a nominal simulation where none is made, or none where one is");
     if (path.seen <= 0) return;
-    const bool is_after = value < 0 && requirement_.kind == RequirementKind::min_silence && has_then();
+    const bool is_after = path.phase.front() == PathPhase::afterwards;
     const std::int64_t left = collision_time_[path.cell.front()];  // the claim may be any number
     const std::int64_t proven = value >= 0 ? value : is_after ? 0 : left - 1;
     if (path.seen <= proven) wrong("the nominal simulation leaves sooner than proven");
   }
-
-  /// Whether there is `then`: the file does not have the steps after which it leaves S.
-  [[nodiscard]] bool has_then() const { return context_.spec->silence && context_.spec->silence->has_then(); }
 
   const CheckContext& context_;
   const RequirementSpec& requirement_;
