@@ -24,7 +24,8 @@ class SelfTriggered final : public Schedule {
   std::int32_t begin(const RunTrace& trace, RandomStream /*losses*/) override {
     policy_ = policy_at(trace);
     promised_ = has_aim() && !is_lasting() ? trace.samples.front().arrival : kUnbounded;
-    return countdown_ = begin_countdown(trace);
+    // On request no step has been agreed yet.
+    return countdown_ = problem_.policies[policy_].is_on_request() ? 0 : begin_countdown(trace);
   }
 
   std::int32_t arrive(const RunTrace& trace) override {
@@ -72,7 +73,6 @@ class SelfTriggered final : public Schedule {
     const AnswerPolicy& policy = problem_.policies[policy_];
     const RunTrace::Sample& sample = trace.samples.back();
     if (policy_ == 0) return reset(sample.delay);
-    if (policy.is_on_request()) return 0;  // no step has been agreed yet
     return reset(problem_.values.at(policy.delay)[at(sample.cell)]);
   }
 
