@@ -8,8 +8,8 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/network/network_problem.hpp"
-#include "answers/network/rule_modes.hpp"
 #include "answers/paths.hpp"
+#include "answers/silence/silent_actions.hpp"
 #include "answers/work_json.hpp"
 #include "choices/projection_bytes.hpp"
 #include "spec/problem_spec.hpp"
@@ -44,7 +44,9 @@ void find_safe_sets(Answers& answers, const StageWork& work) {
                              .resumed = kept == StageStore::Kept::unfinished ? &sets : nullptr};
     NetworkProblem problem = network_problem(answers);
     std::optional<RuleModes> rules;
-    if (context.spec.network->acts_by_rule) problem.rules = rules.emplace(answers, work.team).projections();
+    if (context.spec.network->acts_by_rule)
+      problem.rules =
+          rules.emplace(answers, network_partitions(*context.spec.network), work.team).projections();
     result = find_network_safety(problem, watch, work.team);
   }
   if (work.store == nullptr) return;

@@ -9,7 +9,6 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/network/network_problem.hpp"
-#include "answers/network/rule_modes.hpp"
 #include "answers/paths.hpp"
 #include "answers/risk/risk_levels.hpp"
 #include "answers/silence/silent_actions.hpp"
@@ -91,7 +90,9 @@ void find_risks(Answers& answers, const StageWork& work) {
                         .horizon = context.spec.risk->horizon,
                         .is_safest = context.spec.risk->is_safest};
     std::optional<RuleModes> rules;
-    if (context.spec.silence) problem.network.rules = rules.emplace(answers, work.team).projections();
+    if (context.spec.silence)
+      problem.network.rules =
+          rules.emplace(answers, network_partitions(*context.spec.network), work.team).projections();
     result = find_risk(problem, watch, work.team);
   }
   for (const RiskRows& risks : result.risks)

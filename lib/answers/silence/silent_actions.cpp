@@ -5,6 +5,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "engine/action_sources.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/wording.hpp"
@@ -83,6 +84,19 @@ SilentActions::SilentActions(const Answers& answers, const AgentRules& rules, co
                sources_of(answers.context, tables), team),
       projections(answers.get<NonterminalController>().controller, grouping, team,
                   rules_of(rules, classes, tables, grouping.sources().size(), cells, without_action)) {}
+
+RuleModes::RuleModes(const Answers& answers, const std::vector<const PartitionSpec*>& partitions,
+                     ThreadTeam& team) {
+  const ProblemSpec& spec = answers.context.spec;
+  REQUIRES(spec.silence.has_value());
+  for (const PartitionSpec* const partition : partitions) {
+    projections_.push_back(nullptr);
+    if (partition->classes.size() < 2) continue;
+    actions_.emplace_back(answers, AgentRules{spec.silence->actions, "actions"}, partition->classes,
+                          *answers.get<NonterminalController>().controller.invariant, team);
+    projections_.back() = &actions_.back().projections;
+  }
+}
 
 double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {
   const SilenceSpec& silence = *sizes.model().spec().silence;

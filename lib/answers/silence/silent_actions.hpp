@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,22 @@ struct SilentActions {
   std::vector<std::atomic<std::int64_t>> without_action;  ///< [agent] see SilentRules
   ActionGrouping grouping;
   Projections projections;
+};
+
+/// A(x) in the modes of a network whose partition has more than one class, for agents that act by the
+/// communication-loss rule there (contract, sections 9 and 10).
+class RuleModes {
+ public:
+  /// @param partitions of the modes @pre the spec has a communication-loss rule. @pre unchecked: K is known
+  /// @throws SpecError naming the first grid point where a condition cannot be decided
+  RuleModes(const Answers& answers, const std::vector<const PartitionSpec*>& partitions, ThreadTeam& team);
+
+  /// [partition] null where it has one class. They refer to this object.
+  [[nodiscard]] const std::vector<const Projections*>& projections() const { return projections_; }
+
+ private:
+  std::deque<SilentActions> actions_;
+  std::vector<const Projections*> projections_;
 };
 
 /// The most bytes, about, that SilentActions take beside ordinary projections.
