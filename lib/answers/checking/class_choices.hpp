@@ -20,6 +20,10 @@ class ClassChoices {
   using Numbers = std::vector<std::int64_t>;
   using Partition = std::vector<std::vector<std::int32_t>>;  ///< [class] its agents
   enum class Rules : std::uint8_t { none, actions, then };   ///< of `silence`
+  /// Those in a mode of a network, in which one class alone coordinates.
+  [[nodiscard]] static Rules rules_in_mode(bool act_by_rule, const Partition& partition) {
+    return act_by_rule && partition.size() > 1 ? Rules::actions : Rules::none;
+  }
 
   /// @pre unchecked: spec, grid and inputs outlive this object, and the spec has these rules
   ClassChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,

@@ -48,11 +48,9 @@ class NetworkChecker : public CellChecker {
         claimed_(context.claims->at(kNetworkSafe).members),
         inputs_(static_cast<std::size_t>(context.inputs->count())),
         choices_(network.partitions.size()) {
-    for (const auto& partition : network.partitions) {
-      const bool has_rules = network.spec.acts_by_rule && partition.size() > 1;
+    for (const auto& partition : network.partitions)
       by_class_.emplace_back(context, partition,
-                             has_rules ? ClassChoices::Rules::actions : ClassChoices::Rules::none);
-    }
+                             ClassChoices::rules_in_mode(network.spec.acts_by_rule, partition));
   }
 
   void check(CheckedCell& cell) override {

@@ -111,9 +111,9 @@ class RiskStep {
       partition_of_.push_back(static_cast<std::size_t>(known - partitions_.begin()));
       if (known != partitions_.end()) continue;
       partitions_.push_back(mode.partition.classes);
-      const bool has_rules = context.spec->silence && mode.partition.classes.size() > 1;
-      by_class_.emplace_back(context, mode.partition.classes,
-                             has_rules ? ClassChoices::Rules::actions : ClassChoices::Rules::none);
+      by_class_.emplace_back(
+          context, mode.partition.classes,
+          ClassChoices::rules_in_mode(context.spec->silence.has_value(), mode.partition.classes));
     }
     choices_.resize(partitions_.size());
   }
