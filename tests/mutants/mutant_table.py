@@ -105,6 +105,9 @@ def problems(root, mutants):
         if not path.is_file():
             found.append(f"{mutant.name}: there is no {mutant.file}")
             continue
+        marked = mutant.place.partition("«")[2].partition("»")[0].strip()
+        if re.fullmatch(r"[<>=!&|+*/%-]+|\{[^;]*\}", marked):
+            found.append(f"{mutant.name}: expected an expression or a statement between the marks, found {marked}")
         times = path.read_text(encoding="utf-8").count(mutant.text)
         if times != 1:
             found.append(f"{mutant.name}: expected its text once in {mutant.file}, found it {times} times")

@@ -53,6 +53,13 @@ class MutantTable(unittest.TestCase):
         self.assertEqual(self.problems(self.entry("g(a);", "", rest='found_by = "cli.f.f"')), [])
         self.assertEqual(self.problems(self.entry("g(a);", "", rest='unseen = "g does nothing"')), [])
 
+    def test_a_mark_around_less_than_an_expression(self):
+        """The choice at run time would not compile."""
+        self.assertEqual(
+            self.problems(self.entry("if (a «>» 3)", ">=")),
+            ["f.a: expected an expression or a statement between the marks, found >"],
+        )
+
     def test_a_place_that_is_gone(self):
         self.assertEqual(
             self.problems(self.entry("if («a > 4»)", "a")),
