@@ -28,6 +28,7 @@ struct FastPaths {
   bool sum_tables = true;        ///< a term for each state in which motion is affine
   bool face_flow = true;         ///< bounds by the derivative on faces of the box
   bool turning_products = true;  ///< long products of sensitivities in a turning frame
+  bool tangents = true;          ///< how solutions of a subbox differ, by Taylor series too
   bool halved_boxes = true;      ///< initial boxes in halves, where solutions come less close to the ends
   bool divided_boxes = true;     ///< initial boxes in ever smaller subboxes, as far as `effort` goes
 };
@@ -59,6 +60,7 @@ inline constexpr FastPath kFastPaths[] = {
     {"sum_tables", &FastPaths::sum_tables, false},
     {"face_flow", &FastPaths::face_flow, false},
     {"turning_products", &FastPaths::turning_products, false},
+    {"tangents", &FastPaths::tangents, false},
     {"halved_boxes", &FastPaths::halved_boxes, false},
     {"divided_boxes", &FastPaths::divided_boxes, false},
 };

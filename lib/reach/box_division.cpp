@@ -12,6 +12,9 @@ namespace {
 /// An end that lies beyond the known solutions by less than this fraction of a step is close enough, in
 /// whichever cell.
 constexpr double kCloseSteps = 0.05;
+/// The same where something is added to it before cells are counted, for as many sums meet a cell more for
+/// it, and the subboxes are parts of a line, of which few come so close.
+constexpr double kCloseSummand = 0.02;
 /// Where one half after another has no enclosure, the smallest is as good as a point after so many.
 constexpr int kDeepestFailure = 40;
 /// What a subbox counts for, and what it may take besides without counting for more, in sub-steps along a
@@ -192,7 +195,8 @@ double BoxDivision::missing(std::size_t side) const {
   const Interval& reached = reached_[target.state];
   const double gap =
       (outward_end(end, is_upper_side(side)) - outward_end(reached, is_upper_side(side))) / target.step;
-  if (gap <= kCloseSteps) return 0.0;
+  const bool is_summand_of_line = !target.placed && is_line(subboxes_.front().box);
+  if (gap <= (is_summand_of_line ? kCloseSummand : kCloseSteps)) return 0.0;
   const Interval farthest(is_upper_side(side) ? end.upper : end.lower);
   return !target.placed || target.more_cells(farthest, reached) > 0.0 ? gap : 0.0;
 }

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/fast_paths.hpp"
 
 namespace coordreq {
 namespace {
@@ -68,6 +72,12 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       tolerance_(n_),
       allowed_excess_(n_),
       always_smooth_(is_always_smooth(system_, tape_)) {
+  if (fast_paths().tangents && always_smooth_ && m_ == 0 && !tape_.affine && system_.summed) {
+    std::vector<std::uint32_t> slots(n_);
+    std::iota(slots.begin(), slots.end(), static_cast<std::uint32_t>(system_.slot_count));
+    auto tape = FlowTape::with_tangents(system_.equations, system_.state_slots, slots);
+    if (tape) tangent_.emplace(std::move(*tape), system_);
+  }
   alone_ = Deviation(n_);
   for (Along& along : along_) along.start = alone_;
   result_.end.resize(n_);
@@ -82,6 +92,8 @@ void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
   step_count_ = 0;
   for (std::size_t i = 0; i < n_; ++i) initial_[i] = field_.clipped(i, slots[system_.state_slots[i]]);
   for (std::size_t l = 0; l < m_; ++l) disturbance_[l] = slots[system_.disturbance_slots[l]];
+  takes_long_steps_ = is_subbox_ && tangent_ && is_line(initial_);
+  if (takes_long_steps_) tangent_->begin(slots);
   now_ = initial_;
   solution_count_ = 0;
   ever_stopped_ = false;
@@ -98,7 +110,9 @@ void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
 /// @returns whether that led to the end of the period
 bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
   std::uint32_t left = kTicks;
-  std::uint32_t ticks = kTicks;
+  // Subboxes of one box take like steps; the box itself comes first, so that nothing earlier counts.
+  std::uint32_t ticks = takes_long_steps_ ? std::min(kTicks, 2 * first_ticks_) : kTicks;
+  first_ticks_ = ticks;
   int successes = 0;
   bool known_to_fail = false;
   tries_ = 0;
@@ -112,6 +126,7 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
                                                     : try_step(period_ * Interval{share, share}, divisible);
     known_to_fail = false;
     if (!failure) {
+      if (left == kTicks) first_ticks_ = ticks;
       left -= ticks;
       if (++successes % kPatience == 0) {
         known_to_fail = left > ticks && twice_is_too_long();
@@ -198,6 +213,7 @@ std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& durat
   if (field_.is_on_seam(box_)) return try_step_on_seam(duration);
   FlowStep& step = next_step();
   step.duration = duration;
+  if (tangent_) step.start = now_;
   find_damping(duration);
   step.smooth = decide(tape_, field_.values(), step.choices) && all_free_;
   set_tolerance();
@@ -224,9 +240,14 @@ std::optional<FlowFailure> ValidatedFlow::Solver::try_step_on_seam(const Interva
   return std::nullopt;
 }
 
+/// In long steps a state that starts from a point need not be followed more precisely than the other one.
 void ValidatedFlow::Solver::set_tolerance() {
+  double width = 0.0;
+  for (std::size_t i = 0; takes_long_steps_ && i < system_.steps.size(); ++i)
+    width = std::max(width, initial_[i].width() / system_.steps[i]);
   for (std::size_t i = 0; i < n_; ++i) {
-    tolerance_[i] = std::max(kWidthTolerance * (initial_[i].upper - initial_[i].lower),
+    const double own = initial_[i].width();
+    tolerance_[i] = std::max(kWidthTolerance * (width > 0.0 ? std::max(own, width * system_.steps[i]) : own),
                              kMagnitudeTolerance * box_[i].magnitude() + kLeastTolerance);
     if (tape_.affine) tolerance_[i] = kMagnitudeTolerance * box_[i].magnitude() + kLeastTolerance;
   }
@@ -251,8 +272,12 @@ bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool di
     if (strongest < -kStrongDecay) damped_[i] = true;
   }
   if (transition_.enclose(jacobian_.state(), duration, damped_)) {
+    FlowStep& step = next_step();
+    const bool is_damped = std::find(damped_.begin(), damped_.end(), true) != damped_.end();
+    if (takes_long_steps_ && step.smooth && !is_damped)
+      tangent_->narrow(now_, box_, duration, step.remainder.order, transition_);
     sensitivity_.append(transition_, jacobian_);
-    next_step().transition = transition_.end();
+    step.transition = transition_.end();
     return true;
   }
   const bool small = duration.upper * kTicks <= period_.upper * kSmallWithoutBound;
@@ -263,7 +288,8 @@ bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool di
 
 /// Where a component of f keeps its sign, the state moves one way, from `now_` to `next_`.
 void ValidatedFlow::Solver::finish_step(bool last) {
-  const Interval duration = steps_[step_count_ - 1].duration;
+  const FlowStep& step = steps_[step_count_ - 1];
+  const Interval duration = step.duration;
   for (std::size_t i = 0; i < n_; ++i) {
     next_[i] = field_.clipped(i, now_[i] + duration * derivative_[i]);
     next_[i] = intersect(next_[i], box_[i]).value_or(next_[i]);
@@ -275,7 +301,10 @@ void ValidatedFlow::Solver::finish_step(bool last) {
   }
   for (std::size_t i = 0; i < n_; ++i) {
     const bool is_monotone = derivative_[i].lower >= 0.0 || derivative_[i].upper <= 0.0;
-    result_.tube[i] = hull(result_.tube[i], is_monotone ? hull(now_[i], next_[i]) : box_[i]);
+    Interval during = is_monotone ? hull(now_[i], next_[i]) : box_[i];
+    if (!is_monotone && takes_long_steps_ && step.smooth)
+      during = intersect(during, hull(now_[i], next_[i]) + taylor_.bend(i, duration)).value_or(during);
+    result_.tube[i] = hull(result_.tube[i], during);
     result_.drift[i] = result_.drift[i] + duration * hull(derivative_[i], Interval{});
   }
   now_ = next_;

@@ -15,7 +15,8 @@ namespace coordreq {
 /// A sub-step of the flow, as needed to follow solutions through it.
 struct FlowStep {
   Interval duration;
-  bool smooth = false;  ///< the remainder holds for every solution from the initial box
+  std::vector<Interval> start;  ///< where all solutions are at its beginning; only with tangents
+  bool smooth = false;          ///< the remainder holds for every solution from the initial box
   TaylorRemainder remainder;
   Choices choices;
   UpwardMatrix transition;  ///< of the difference of two solutions
@@ -94,6 +95,7 @@ class ValidatedFlow::Solver {
   void set_disturbances(const std::vector<End>& ends);
   void restore_disturbances();
   bool advance(const FlowStep& step, NominalFlow::State& state);
+  void keep_within(const FlowStep& step, std::vector<Interval>& state) const;
   void advance_smoothly(const FlowStep& step, std::vector<Interval>& state);
   void take_solutions_along();
   void advance_along(std::size_t along, FollowedSolution& solution);
@@ -116,6 +118,7 @@ class ValidatedFlow::Solver {
   TransitionMatrix transition_;
   FlowSensitivity sensitivity_;
   TaylorStep taylor_;
+  std::optional<TangentStep> tangent_;  ///< nothing if there are disturbances, kinks, limits or seams
   NominalFlow nominal_;
   AffineKernel affine_kernel_;
   FaceFlow faces_;
@@ -124,7 +127,8 @@ class ValidatedFlow::Solver {
   std::vector<FlowStep> steps_;
   std::size_t step_count_ = 0;  ///< since the start, or since the last restart
   std::size_t tries_ = 0;
-  std::int64_t all_tries_ = 0;  ///< of all boxes
+  std::uint32_t first_ticks_ = 0;  ///< of the last box's first step
+  std::int64_t all_tries_ = 0;     ///< of all boxes
   std::vector<FollowedSolution> solutions_;
   std::size_t solution_count_ = 0;
   std::vector<std::vector<End>> wanted_;  ///< lower and upper extreme of every state: where it comes from
@@ -155,10 +159,11 @@ class ValidatedFlow::Solver {
   double fastest_growth_ = 0.0;
   std::size_t stiffest_ = 0;
   bool gave_up_ = false;
-  bool always_smooth_;         ///< no step meets a kink, a limit or a seam
-  bool is_subbox_ = false;     ///< the box is divided further where that pays
-  bool all_free_ = true;       ///< no state may run into a limit in this step
-  bool ever_stopped_ = false;  ///< in an earlier one it might
+  bool always_smooth_;             ///< no step meets a kink, a limit or a seam
+  bool takes_long_steps_ = false;  ///< tangents tell how far solutions diverge in them
+  bool is_subbox_ = false;         ///< the box is divided further where that pays
+  bool all_free_ = true;           ///< no state may run into a limit in this step
+  bool ever_stopped_ = false;      ///< in an earlier one it might
   FlowEnclosure result_;
 };
 

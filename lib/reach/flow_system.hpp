@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "expression/program.hpp"
@@ -27,9 +29,17 @@ struct FlowSystem {
   std::vector<std::uint32_t> disturbance_slots;
   std::size_t slot_count = 0;
   std::vector<Limit> stops;  ///< one a state, or none at all
+  /// Whether something is added to the end of a solution before cells are counted, so that all that matters
+  /// is its distance from the true end, and nothing before the end does.
+  bool summed = false;
   /// Enclosures of where the equations jump in a state that goes round (see seam.hpp): one list a state, or
   /// none at all.
   std::vector<std::vector<Interval>> seams;
 };
+
+/// Whether a box is wide in one direction alone.
+[[nodiscard]] inline bool is_line(std::span<const Interval> box) {
+  return std::count_if(box.begin(), box.end(), [](const Interval& a) { return !a.is_point(); }) == 1;
+}
 
 }  // namespace coordreq

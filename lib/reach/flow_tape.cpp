@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 namespace coordreq {
 namespace {
@@ -39,6 +41,18 @@ class TapeWriter final : private NodeWriter {
     return indices.back();
   }
 
+  /// Writes the derivatives of the equations along a tangent of the states.
+  /// @returns whether they have one, as they have wherever they are defined unless there is a kink or a jump
+  bool write_tangents(std::span<const Index> equations, std::vector<Index> tangents) {
+    tangents_ = std::move(tangents);
+    tape_.first_tangent = static_cast<Index>(tape_.nodes.size());
+    for (const Index i : equations) {
+      const std::optional<Index> along = tangent(i);
+      tape_.outputs.push_back(along ? *along : put_number(0));
+    }
+    return is_smooth_;
+  }
+
   [[nodiscard]] bool is_fixed(Index i) const { return degree_[i] == 0; }
   [[nodiscard]] bool is_affine(Index i) const { return degree_[i] <= 1; }
 
@@ -62,6 +76,58 @@ class TapeWriter final : private NodeWriter {
   }
 
   using Key = std::tuple<Operator, Index, Index, Index>;
+
+  /// The derivative of a node; nothing if that is 0.
+  std::optional<Index> tangent(Index i) {
+    if (const auto known = tangent_of_.find(i); known != tangent_of_.end()) return known->second;
+    return tangent_of_[i] = new_tangent(i);
+  }
+
+  std::optional<Index> new_tangent(Index i) {
+    const Node node = tape_.nodes[i];
+    const auto of_p = [&] { return tangent(node.p); };
+    switch (node.rule) {
+      case Rule::fixed:
+        return std::nullopt;
+      case Rule::variable:
+        return put(Operator::variable, tangents_[node.p]);
+      case Rule::sum:
+        return combined(Operator::add, of_p(), tangent(node.q));
+      case Rule::difference:
+        return combined(Operator::subtract, of_p(), tangent(node.q));
+      case Rule::negation:
+        return combined(Operator::subtract, std::nullopt, of_p());
+      case Rule::product:
+        return combined(Operator::add, scaled(of_p(), Operator::multiply, node.q),
+                        scaled(tangent(node.q), Operator::multiply, node.p));
+      case Rule::quotient:
+        return scaled(combined(Operator::subtract, of_p(), scaled(tangent(node.q), Operator::multiply, i)),
+                      Operator::divide, node.q);
+      case Rule::chain:
+        return scaled(of_p(), Operator::multiply, node.q);
+      case Rule::inverse_chain:
+        return scaled(of_p(), Operator::divide, node.q);
+      case Rule::root:
+        return scaled(of_p(), Operator::divide, put(Operator::multiply, put_number(2), i));
+      case Rule::power:
+        return scaled(scaled(of_p(), Operator::multiply, put(Operator::multiply, node.q, i)),
+                      Operator::divide, node.p);
+      case Rule::angle:
+      case Rule::pick:
+        break;
+    }
+    is_smooth_ = false;
+    return std::nullopt;
+  }
+
+  std::optional<Index> combined(Operator op, std::optional<Index> a, std::optional<Index> b) {
+    if (a && b) return put(op, *a, *b);
+    if (b && op == Operator::subtract) return put(Operator::negate, *b);
+    return a ? a : b;
+  }
+  std::optional<Index> scaled(std::optional<Index> a, Operator op, Index by) {
+    return a ? std::optional(put(op, *a, by)) : a;
+  }
 
   Index add(Node node, const Key& key) {
     const auto index = static_cast<Index>(tape_.nodes.size());
@@ -160,6 +226,9 @@ class TapeWriter final : private NodeWriter {
   std::map<Rational, Index> constants_;
   std::map<Key, Index> index_of_;
   std::vector<int> degree_;
+  std::vector<Index> tangents_;  ///< slots, one a state
+  std::map<Index, std::optional<Index>> tangent_of_;
+  bool is_smooth_ = true;
 };
 
 std::vector<Index> value_operands(const Node& node) {
@@ -213,6 +282,11 @@ FlowTape::FlowTape(std::span<const Program* const> equations, std::span<const st
     : state_slots(states.begin(), states.end()) {
   TapeWriter writer(*this, states, disturbances);
   for (const Program* equation : equations) outputs.push_back(writer.write(*equation));
+  list_nodes(writer);
+}
+
+template <class Writer>
+void FlowTape::list_nodes(const Writer& writer) {
   for (const Index i : outputs) affine = affine && writer.is_affine(i);
   const std::vector<bool> for_value = reached(*this, outputs, value_operands);
   const std::vector<bool> for_series = reached(*this, outputs, series_operands);
@@ -229,6 +303,20 @@ FlowTape::FlowTape(std::span<const Program* const> equations, std::span<const st
     std::vector<Index>& list = values_of.emplace_back();
     std::copy_if(values.begin(), values.end(), std::back_inserter(list), [&](Index i) { return needed[i]; });
   }
+}
+
+std::optional<FlowTape> FlowTape::with_tangents(std::span<const Program* const> equations,
+                                                std::span<const std::uint32_t> states,
+                                                std::span<const std::uint32_t> tangents) {
+  FlowTape tape;
+  tape.state_slots.assign(states.begin(), states.end());
+  tape.state_slots.insert(tape.state_slots.end(), tangents.begin(), tangents.end());
+  TapeWriter writer(tape, tape.state_slots, {});
+  for (const Program* equation : equations) tape.outputs.push_back(writer.write(*equation));
+  if (!writer.write_tangents(std::vector<Index>(tape.outputs), {tangents.begin(), tangents.end()}))
+    return std::nullopt;
+  tape.list_nodes(writer);
+  return tape;
 }
 
 }  // namespace coordreq

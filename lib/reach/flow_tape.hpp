@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,17 +36,29 @@ struct FlowTape {
   std::vector<Node> nodes;
   std::vector<Rational> constants;
   std::vector<std::uint32_t> state_slots;   ///< in the order of the equations
-  std::vector<std::uint32_t> outputs;       ///< node of each equation
+  std::vector<std::uint32_t> outputs;       ///< node of each equation, then of each tangent
   std::vector<std::uint32_t> fixed_values;  ///< nodes without moving variables, ascending
   std::vector<std::uint32_t> values;        ///< moving nodes that the equations' values need, ascending
   std::vector<std::vector<std::uint32_t>> values_of;  ///< those that each of them needs
   std::vector<std::uint32_t> series;  ///< moving nodes that Taylor coefficients need, ascending
   bool affine = true;                 ///< each equation has degree at most 1 in the moving variables
+  /// Nodes of the equations alone, which stand before those of the tangents.
+  std::uint32_t first_tangent = 0;
 
   /// @param states slots of the states, in the order of the equations
   /// @param disturbances slots of the other moving variables
   FlowTape(std::span<const Program* const> equations, std::span<const std::uint32_t> states,
            std::span<const std::uint32_t> disturbances);
+  /// The same together with e' = J(x) e, which a small difference e of two solutions obeys: as many states
+  /// more, in the slots `tangents`. Nothing if an equation has a kink or may jump.
+  [[nodiscard]] static std::optional<FlowTape> with_tangents(std::span<const Program* const> equations,
+                                                             std::span<const std::uint32_t> states,
+                                                             std::span<const std::uint32_t> tangents);
+
+ private:
+  FlowTape() = default;
+  template <class Writer>
+  void list_nodes(const Writer& writer);
 };
 
 }  // namespace coordreq

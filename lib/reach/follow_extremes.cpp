@@ -91,10 +91,18 @@ bool ValidatedFlow::Solver::advance(const FlowStep& step, NominalFlow::State& st
 /// A Taylor step from the middle of the enclosure so far, which grows as differences of solutions do:
 /// evaluating the polynomial over all of it would let rounding errors grow where solutions converge.
 void ValidatedFlow::Solver::advance_smoothly(const FlowStep& step, std::vector<Interval>& state) {
+  keep_within(step, state);
   alone_.split(state);
   state = alone_.middle;
   taylor_.advance(field_, step.duration, step.choices, none_held_, step.remainder, state);
   alone_.carry_on(step.transition, state);
+}
+
+/// A solution is among all of them, and so is the middle of where it can be then: where bounds for all of
+/// them hold.
+void ValidatedFlow::Solver::keep_within(const FlowStep& step, std::vector<Interval>& state) const {
+  for (std::size_t i = 0; tangent_ && i < n_; ++i)
+    state[i] = intersect(state[i], step.start[i]).value_or(state[i]);
 }
 
 void Deviation::split(std::span<const Interval> state) {
@@ -126,11 +134,12 @@ void Deviation::carry_on(const UpwardMatrix& transition, std::vector<Interval>& 
 /// Those that extremes came from in the last step: mostly they are asked for again.
 void ValidatedFlow::Solver::take_solutions_along() {
   for (std::size_t s = 0; s < solution_count_ && along_count_ < along_.size(); ++s) {
-    const FollowedSolution& solution = solutions_[s];
+    FollowedSolution& solution = solutions_[s];
     const bool is_used = std::find(solution_of_.begin(), solution_of_.end(), s) != solution_of_.end();
     if (!is_used || solution.steps_done != step_count_) continue;
     Along& along = along_[along_count_++];
     along.solution = s;
+    keep_within(steps_[step_count_], solution.state.value);
     along.start.split(solution.state.value);
     std::copy(field_.slots().begin(), field_.slots().end(), slots_.begin());
     for (std::size_t i = 0; i < n_; ++i) slots_[system_.state_slots[i]] = along.start.middle[i];

@@ -32,6 +32,10 @@ class TransitionMatrix {
 
   /// Phi(h, 0).
   [[nodiscard]] const UpwardMatrix& end() const { return end_; }
+  /// Puts what is known of an entry of it besides.
+  void narrow_end(Eigen::Index i, Eigen::Index j, const Interval& known) {
+    end_(i, j) = intersection(end_(i, j), UpwardInterval(known));
+  }
   /// Phi(h, s) for all 0 <= s <= h.
   [[nodiscard]] const UpwardMatrix& range() const { return range_; }
   /// At least the integral of |Phi(h, s)| over 0 <= s <= h, entry by entry.

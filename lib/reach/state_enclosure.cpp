@@ -106,6 +106,7 @@ void StateEnclosure::prepare_flow(const std::vector<std::size_t>& states) {
   }
   std::vector<EndCells> targets;
   for (const std::size_t state : served(states)) targets.push_back(cells_of(state));
+  system.summed = (shifts_ || terms_) && !spec_->abstraction.between_samples;
   PeriodicFlow flow(system, rings, lower_double(spec_->dynamics.period),
                     upper_double(spec_->dynamics.period));
   flow_.emplace(std::move(flow), system, std::move(targets), effort_of(*spec_));

@@ -1,6 +1,7 @@
 #include "reach/taylor_step.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace coordreq {
 namespace {
@@ -12,6 +13,9 @@ constexpr std::size_t kLargestAffineOrder = 24;
 /// A remainder that seems so many times as wide as half of the tolerance is hopeless: tolerances grow with
 /// the box, by little.
 constexpr double kHopeless = 2.0;
+
+/// An entry of a transition matrix that is no wider is known well enough.
+constexpr double kNarrow = 0x1p-40;
 
 std::size_t largest_order(const FlowTape& tape) {
   return tape.affine ? kLargestAffineOrder : kLargestOrder;
@@ -103,6 +107,70 @@ void TaylorStep::advance(VectorField& field, const Interval& duration, const Cho
     const BallLanes sums = state_series_.polynomials(i, remainder.order, step);
     state[i] = to_interval({sums.middle[0], sums.radius[0]}) + remainder.value[i];
   }
+}
+
+/// A function of time differs from its chord by at most h^2 / 8 times its second derivative.
+Interval TaylorStep::bend(std::size_t i, const Interval& duration) const {
+  const double most = to_interval(box_series_.coefficient(0, i, 2)).magnitude();
+  const Interval time{0.0, duration.upper};
+  return time * time * Interval{-most, most} * Interval(0.25);
+}
+
+TangentStep::TangentStep(FlowTape tape, const FlowSystem& system)
+    : dimension_(system.equations.size()),
+      tape_(std::move(tape)),
+      fixed_(tape_),
+      series_(tape_, largest_order(tape_)),
+      slots_(system.slot_count + dimension_),
+      choices_(tape_.nodes.size()),
+      none_held_(2 * dimension_) {}
+
+void TangentStep::begin(std::span<const Interval> slots) {
+  std::copy(slots.begin(), slots.end(), slots_.begin());
+  fixed_.run_fixed(slots_);
+}
+
+void TangentStep::narrow(std::span<const Interval> start, std::span<const Interval> box,
+                         const Interval& duration, std::size_t order, TransitionMatrix& transition) {
+  columns_.clear();
+  for (Eigen::Index j = 0; j < transition.end().cols(); ++j) {
+    const auto is_narrow = [](const UpwardInterval& a) { return a.upper() - a.lower() <= kNarrow; };
+    if (!transition.end().col(j).unaryExpr(is_narrow).all()) columns_.push_back(j);
+  }
+  const Ball step = to_ball(duration);
+  Ball power = step;
+  for (std::size_t k = 1; k < order; ++k) power = power * step;
+  constexpr std::size_t kAtOnce = TaylorSeries::kLanes / 2;
+  for (std::size_t first = 0; first < columns_.size(); first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, columns_.size() - first);
+    series_.start(fixed_, choices_, none_held_);
+    for (std::size_t c = 0; c < count; ++c) add_lanes(start, box, transition, columns_[first + c]);
+    while (series_.order() < order) series_.extend();
+    for (std::size_t i = 0; i < dimension_; ++i) {
+      const BallLanes sums = series_.polynomials(dimension_ + i, order, step);
+      for (std::size_t c = 0; c < count; ++c) {
+        const Ball rest = power * series_.coefficient(2 * c + 1, dimension_ + i, order);
+        transition.narrow_end(static_cast<Eigen::Index>(i), columns_[first + c],
+                              to_interval({sums.middle[2 * c], sums.radius[2 * c]}) + to_interval(rest));
+      }
+    }
+  }
+}
+
+/// The polynomial is of solutions from the start, the remainder of all that they pass.
+void TangentStep::add_lanes(std::span<const Interval> start, std::span<const Interval> box,
+                            const TransitionMatrix& transition, Eigen::Index column) {
+  const auto n = static_cast<Eigen::Index>(dimension_);
+  Interval* const tangent = slots_.data() + slots_.size() - dimension_;
+  for (Eigen::Index i = 0; i < n; ++i) tangent[i] = Interval(i == column ? 1.0 : 0.0);
+  add_lane(start);
+  for (Eigen::Index i = 0; i < n; ++i) tangent[i] = transition.range()(i, column).interval();
+  add_lane(box);
+}
+
+void TangentStep::add_lane(std::span<const Interval> state) {
+  for (std::size_t i = 0; i < dimension_; ++i) slots_[tape_.state_slots[i]] = state[i];
+  series_.add_box(slots_);
 }
 
 }  // namespace coordreq

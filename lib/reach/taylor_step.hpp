@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reach/a_priori.hpp"
+#include "reach/sensitivity.hpp"
 #include "reach/taylor_series.hpp"
 
 namespace coordreq {
@@ -43,6 +44,10 @@ class TaylorStep {
   /// a remainder
   void advance_along(std::size_t along, const TaylorRemainder& remainder, std::span<Interval> state) const;
 
+  /// How far state i can get from a straight line in time between its ends of the step. @pre unchecked: there
+  /// is a remainder
+  [[nodiscard]] Interval bend(std::size_t i, const Interval& duration) const;
+
   /// Replaces `state` by an enclosure of where the solutions from it are after `duration`.
   /// @param field its slots hold the disturbances' values; its states are overwritten
   void advance(VectorField& field, const Interval& duration, const Choices& choices,
@@ -57,6 +62,38 @@ class TaylorStep {
   TaylorSeries state_series_;
   std::vector<Ball> terms_;      ///< of the last order over the box
   std::vector<BallLanes> sums_;  ///< the polynomials of all states at the end of the step
+};
+
+/// The derivative of one step by its start, by Taylor series of e' = J(x) e along all solutions at once: far
+/// narrower than what an interval Jacobian over the whole step leads to. Scratch memory for one thread.
+class TangentStep {
+ public:
+  /// @param tape with tangents of this system
+  TangentStep(FlowTape tape, const FlowSystem& system);
+
+  /// Sets the slots that are constant in time.
+  void begin(std::span<const Interval> slots);
+  /// Narrows the end of `transition`, the difference of two solutions of a smooth system without
+  /// disturbances.
+  /// @param start where all solutions start that it is asked for
+  /// @param box where they are during the step, no damping there
+  /// @param order as of the remainder
+  void narrow(std::span<const Interval> start, std::span<const Interval> box, const Interval& duration,
+              std::size_t order, TransitionMatrix& transition);
+
+ private:
+  void add_lanes(std::span<const Interval> start, std::span<const Interval> box,
+                 const TransitionMatrix& transition, Eigen::Index column);
+  void add_lane(std::span<const Interval> state);
+
+  std::size_t dimension_;
+  FlowTape tape_;
+  TapeValues<Interval> fixed_;
+  TaylorSeries series_;
+  std::vector<Interval> slots_;
+  Choices choices_;  ///< there are none
+  std::vector<bool> none_held_;
+  std::vector<Eigen::Index> columns_;  ///< that are not known well yet
 };
 
 }  // namespace coordreq

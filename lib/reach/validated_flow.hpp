@@ -40,7 +40,9 @@ struct FlowEnclosure {
 /// (a_priori.hpp).
 /// 2. Over them an interval Jacobian J, so that the difference e of two solutions obeys e' = A(t) e + B(t) v
 ///    with A, B in J (also where f is only Lipschitz), and bounds of all its transition matrices
-///    (sensitivity.hpp); discontinuities count as additional disturbances (dual.hpp).
+///    (sensitivity.hpp); discontinuities count as additional disturbances (dual.hpp). For a part of a line
+///    whose end is a summand (FlowSystem), also Taylor series of e' = J(x) e where there is neither
+///    (TangentStep): then longer steps are enough.
 /// 3. A state that depends on an initial value or a disturbance with a proven sign has its extremes at an end
 ///    of it. Solutions from those corners are enclosed (Taylor steps with Lagrange's remainder); for the
 ///    variables without a proven sign they start in the middle, and the mean value theorem adds the rest.

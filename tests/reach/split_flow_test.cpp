@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "reach/reference_flow.hpp"
+#include "support/without.hpp"
 
 namespace coordreq {
 namespace {
@@ -101,6 +103,53 @@ TEST(SplitFlow, HowFarAStateMovesIsNotReadOffTheFaces) {
   ASSERT_EQ(found.status, FlowEnclosure::Status::ok);
   EXPECT_TRUE(holds(found.drift[0], needed.change[0]));
   EXPECT_LE(found.end[0].upper, 1.0 + 1e-6);  // as the faces show
+}
+
+/// The end that is enclosed if it is a summand, and how many sub-steps that took.
+std::pair<std::vector<Interval>, std::int64_t> summand(const FlowCase& flow, double step) {
+  FlowSystem system = flow.system();
+  system.disturbance_slots.clear();
+  system.steps.assign(flow.equations.size(), step);
+  system.summed = true;
+  std::vector<EndCells> targets;
+  for (std::size_t i = 0; i < flow.equations.size(); ++i)
+    targets.push_back({.state = i, .step = step, .placed = false});
+  PeriodicFlow whole(system, std::vector<std::optional<Ring>>(flow.equations.size()), flow.tau, flow.tau);
+  SplitFlow split(std::move(whole), system, targets, 200);
+  const FlowEnclosure found = split.flow(flow.slots);
+  EXPECT_EQ(found.status, FlowEnclosure::Status::ok);
+  return {found.end, split.steps()};
+}
+
+TEST(SplitFlow, TangentsEncloseSummandsInFewerSteps) {
+  FlowCase turning({"cos(20*y) - z", "sin(y) + 1", "sin(20*y) + x"});
+  turning.slots[1] = {0.0, 1.0};
+  FlowCase swaying({"cos(12*y)*exp(z)", "sin(y) + 1", "y*sin(12*y)"});
+  swaying.slots[1] = {0.0, 1.0};
+  for (FlowCase flow : {turning, swaying}) {
+    flow.tau = 0.5;
+    const auto [end, steps] = summand(flow, 0.05);
+    const auto [plain, plain_steps] = [&flow] {
+      const FastPath tangents{"tangents", &FastPaths::tangents, false};
+      const Without without(tangents);
+      return summand(flow, 0.05);
+    }();
+    EXPECT_LT(steps, plain_steps);
+    const auto at = [&](std::size_t i, int k) {
+      return static_cast<long double>(flow.slots[i].lower + k * width(flow.slots[i]) / 20);
+    };
+    for (int a = 0; a <= 20; ++a) {
+      for (int b = 0; b <= 20; ++b) {
+        const auto sample = integrate(flow, {at(0, a), at(1, b), 0.0L}, Signal{{0.0L, 0.0L}}, 400).back();
+        for (std::size_t i = 0; i < 3; ++i) {
+          EXPECT_TRUE(holds(end[i], Interval(static_cast<double>(sample[i])))) << i;
+          EXPECT_TRUE(holds(plain[i], Interval(static_cast<double>(sample[i])))) << i;
+        }
+      }
+    }
+    // Both are as close as they need to be: within 0.02 and 0.05 of a step at each end.
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(width(end[i]), width(plain[i]) + 2 * 0.02 * 0.05) << i;
+  }
 }
 
 TEST(SplitFlow, WithoutEffortItIsTheFlowOfTheWhole) {
