@@ -5,6 +5,7 @@ import io
 import itertools
 import json
 import math
+import resource
 import subprocess
 import unittest
 from decimal import Decimal
@@ -73,6 +74,12 @@ int main(void) {
 # Cell, countdown and actions that the program prints of what is no cell.
 C_OUTSIDE = "-1,0,none"
 C_LEFT_SAFELY = f"-2,{2**31 - 1},all"
+
+
+def setUpModule():
+    """AddressSanitizer reserves far more addresses than it uses: a soft limit of them is not for these tests."""
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
 
 
 class Cases(Case):
