@@ -12,7 +12,8 @@ namespace coordreq {
 /// those libraries and reports races that are none.
 ///
 /// A loop calls as many of the threads as there are processors for, those first that wait already, and does
-/// not wait for one that comes when nothing is left. So sixteen threads on two cores take as long as two.
+/// not wait for one that comes when nothing is left. So sixteen threads on two cores take hardly longer than
+/// two.
 ///
 /// Thread safety: `for_each` may be called from one thread at a time and not from within a loop body.
 class ThreadTeam {

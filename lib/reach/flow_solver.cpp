@@ -273,8 +273,7 @@ bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool di
   }
   if (transition_.enclose(jacobian_.state(), duration, damped_)) {
     FlowStep& step = next_step();
-    const bool is_damped = std::find(damped_.begin(), damped_.end(), true) != damped_.end();
-    if (takes_long_steps_ && step.smooth && !is_damped)
+    if (takes_long_steps_ && step.smooth && std::find(damped_.begin(), damped_.end(), true) == damped_.end())
       tangent_->narrow(now_, box_, duration, step.remainder.order, transition_);
     sensitivity_.append(transition_, jacobian_);
     step.transition = transition_.end();

@@ -45,7 +45,6 @@ class TapeWriter final : private NodeWriter {
   /// @returns whether they have one, as they have wherever they are defined unless there is a kink or a jump
   bool write_tangents(std::span<const Index> equations, std::vector<Index> tangents) {
     tangents_ = std::move(tangents);
-    tape_.first_tangent = static_cast<Index>(tape_.nodes.size());
     for (const Index i : equations) {
       const std::optional<Index> along = tangent(i);
       tape_.outputs.push_back(along ? *along : put_number(0));

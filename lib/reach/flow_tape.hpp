@@ -42,8 +42,6 @@ struct FlowTape {
   std::vector<std::vector<std::uint32_t>> values_of;  ///< those that each of them needs
   std::vector<std::uint32_t> series;  ///< moving nodes that Taylor coefficients need, ascending
   bool affine = true;                 ///< each equation has degree at most 1 in the moving variables
-  /// Nodes of the equations alone, which stand before those of the tangents.
-  std::uint32_t first_tangent = 0;
 
   /// @param states slots of the states, in the order of the equations
   /// @param disturbances slots of the other moving variables
