@@ -28,7 +28,7 @@ std::string xml_text(std::string result) {
 }
 
 void set(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(xml_text(value).c_str());
+  node.append_attribute(name).set_value(xml_text(printable(value)).c_str());
 }
 
 pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, const std::string& name) {
@@ -41,7 +41,7 @@ pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, con
 
 void add_requirement(pugi::xml_node suite, const std::string& class_name, const Json& entry,
                      const ProblemSpec& spec) {
-  pugi::xml_node test = add_case(suite, class_name, printable(entry["name"].get<std::string>()));
+  pugi::xml_node test = add_case(suite, class_name, entry["name"].get<std::string>());
   if (entry["holds"]) return;
   pugi::xml_node failure = test.append_child("failure");
   set(failure, "message", failure_line(entry, spec));
@@ -83,14 +83,13 @@ void set_head(pugi::xml_node node, const std::string& name, const Totals& totals
 
 void add_suite(pugi::xml_node root, const JunitSuite& content) {
   pugi::xml_node suite = root.append_child("testsuite");
-  const std::string name = printable(content.name);
-  set_head(suite, name, totals_of(content));
+  set_head(suite, content.name, totals_of(content));
   if (content.summary == nullptr) {
-    set(add_case(suite, name, "analysis").append_child("error"), "message", printable(content.error));
+    set(add_case(suite, content.name, "analysis").append_child("error"), "message", content.error);
     return;
   }
   for (const Json& requirement : (*content.summary)["requirements"])
-    add_requirement(suite, name, requirement, *content.spec);
+    add_requirement(suite, content.name, requirement, *content.spec);
 }
 
 }  // namespace

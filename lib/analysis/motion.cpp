@@ -163,9 +163,7 @@ Motion sample_motion(const SystemSpec& spec) {
       const double moved = std::fabs(next - begin[i]);
       if (std::isfinite(moved)) all[i].amount = std::max(all[i].amount, moved);
     };
-    for (std::size_t i = 0; end && i < all.size(); ++i) {
-      if (spec.dynamics.update(i) == nullptr) add(i, (*end)[i]);
-    }
+    for (std::size_t i = 0; end && i < all.size(); ++i) add(i, (*end)[i]);
     jumps.for_each(begin, add);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -147,6 +147,13 @@ class Cases(Case):
         # It could wait in 0 for ever, and would show nothing.
         cells, end, _ = self.story(WAITING, "0 <= p <= 2", max_arrival=0)
         self.assertEqual((cells, end), ([0, 1, 2], "arrived"))
+        # Left alone it waits in 0, which shows nothing; 1 is in the goal, too, but nearer to 2.
+        drift = {**WAITING, "dynamics": {**WAITING["dynamics"], "equations": {"p": "p + d"}}}
+        drift["states"] = [{**WAITING["states"][0], "upper": 3}]
+        drift["disturbances"] = [{"name": "d", "lower": 0, "upper": 0.7}]
+        drift["goal"] = {"where": "p <= 1 or p == 3", "then": "stay"}
+        cells, end, _ = self.story(drift, "p == 0", max_arrival=0)
+        self.assertEqual((cells, end), ([0, 1, 2, 2], "never_arrives"))
         trap = {**WAITING, "dynamics": {**WAITING["dynamics"], "equations": {"p": "if(p < 0.5, d, 1)"}}}
         trap["states"] = [{**WAITING["states"][0], "upper": 1}]
         for then, words in (("stay", "the state may never stay in the goal"), ("return", "the goal may never be visited again")):
