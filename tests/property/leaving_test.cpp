@@ -100,6 +100,20 @@ TEST(Leaving, IsWhatTheDefinitionSays) {
   }));
 }
 
+TEST(Leaving, IsByAdmissibleInputsAlone) {
+  ThreadTeam team(2);
+  const FastAnalysis fast(read_spec(R"({"coordreq": 1, "name": "line",
+    "states": [{"name": "x", "lower": 0, "upper": 9, "step": 1, "outside": {"below": "saturate", "above": "safe"}}],
+    "inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [0, 1]}],
+    "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+    "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + 2 * u"}}, "safe": "true",
+    "controller": {"allow": "x >= 7 or u <= 0"}, "abstraction": {"cells": "half_open"}})",
+                                    "line"),
+                          team);
+  EXPECT_EQ(fast.layers[0].sizes.back(), 10);
+  EXPECT_EQ(fast.layers[0].leaving.value().cells, 3);
+}
+
 TEST(Leaving, OfLikeAgentsToo) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("of which some rows are worked out alone",
