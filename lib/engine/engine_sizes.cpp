@@ -71,7 +71,7 @@ double EngineSizes::levels() const {
   constexpr std::int64_t kAlign = 16;
   const RowMargins margins = shape_.margins();
   const std::int64_t row = margins.before + shape_.length() + margins.after;
-  return (rows() + 1) * in_double((row + kAlign - 1) / kAlign * kAlign) + kLevelBlock;
+  return rows() * in_double((row + kAlign - 1) / kAlign * kAlign) + kLevelBlock;
 }
 
 double EngineSizes::usual_bytes(std::size_t t) const {
@@ -196,9 +196,8 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
     choices *= held;
     distinct = use[0] == in_full ? distinct * held : std::min(distinct, choices);
   }
-  const double at_once = std::min(choices, in_double(kGroupsFoundAtOnce));
   return offsets + choices * sizeof(std::uint32_t) +
-         (distinct + at_once) * one_grouping(actions, std::min(groups, actions));
+         distinct * one_grouping(actions, std::min(groups, actions));
 }
 
 double EngineSizes::readers(int threads, double level_bytes) const {

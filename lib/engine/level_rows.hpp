@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,6 @@
 #include "engine/cell_set.hpp"
 #include "engine/interner.hpp"
 #include "engine/level_kernels.hpp"
-#include "engine/limits.hpp"
 #include "engine/list_numbers.hpp"
 #include "engine/row_shape.hpp"
 #include "ranks/row_share.hpp"
@@ -31,8 +31,8 @@ namespace coordreq {
 /// same, but the system gives only pages that are written. Where several processes share the work each has
 /// the rows of all of them, of which only those that it holds mean something and take memory (RowShare).
 ///
-/// Threads: any number may read while no thread writes. Different threads may write different rows; interned
-/// rows are written by one thread at a time. make_ready() is for any number of threads at any time.
+/// Threads: any number may read while no thread writes. Different threads may write different rows, and read
+/// rows that none writes. make_ready() is for any number of threads at any time.
 ///
 /// 1. A row that was written is *closed*: its margins and gaps follow from its cells. Interned rows are
 ///    closed from the start.
@@ -59,15 +59,13 @@ class LevelRows {
         margins_(shape_.margins()) {
     constexpr std::int64_t kAlign = 16 / static_cast<std::int64_t>(sizeof(Level));
     stride_ = (margins_.before + length_ + margins_.after + kAlign - 1) / kAlign * kAlign;
-    // One slot more than rows: a row that is put takes a new slot before it leaves its old one.
-    const auto size = static_cast<std::size_t>((rows + 1) * stride_) + kLevelBlock / sizeof(Level);
-    levels_ = ZeroedArray<Level>(size);
+    levels_ = ZeroedArray<Level>(bytes() / sizeof(Level));
     if (!interned || rows == 0) return;
-    lanes_.assign(static_cast<std::size_t>(stride_), 0);
     Level* const first = levels_.data() + margins_.before;
     close_row(first);
-    slots_.assign(static_cast<std::size_t>(rows), interner_.add(hash_of(first)));
-    interner_.hold(0, rows - 1);
+    interner_ = std::make_unique<Interner>(rows);
+    slots_.assign(static_cast<std::size_t>(rows), enter(first, hash_of(first)));
+    interner_->hold(0, static_cast<std::uint32_t>(rows - 1));
   }
 
   LevelRows(LevelRows&&) noexcept = default;
@@ -89,7 +87,7 @@ class LevelRows {
 
   /// Bytes reserved.
   [[nodiscard]] std::size_t bytes() const {
-    return (static_cast<std::size_t>((rows_ + 1) * stride_) + kLevelBlock / sizeof(Level)) * sizeof(Level);
+    return static_cast<std::size_t>(rows_ * stride_) * sizeof(Level) + kLevelBlock;
   }
 
   [[nodiscard]] bool is_interned() const { return !slots_.empty(); }
@@ -108,9 +106,10 @@ class LevelRows {
       change(cells);
       return close_row(cells);
     }
-    std::copy_n(row(r), length_, lanes_.data() + margins_.before);
-    change(lanes_.data() + margins_.before);
-    put_ready(r, lanes_.data(), make_ready(lanes_.data()));
+    std::vector<Level> lanes(static_cast<std::size_t>(stride_));
+    std::copy_n(row(r), length_, lanes.data() + margins_.before);
+    change(lanes.data() + margins_.before);
+    put_ready(r, lanes.data(), make_ready(lanes.data()));
   }
   /// Gives a row these cells, and closes it.
   /// @param cells whole blocks may be read; levels in gaps do not matter
@@ -130,17 +129,9 @@ class LevelRows {
       std::copy_n(lanes, stride_, levels_.data() + r * stride_);
       return;
     }
-    const Level* const cells = lanes + margins_.before;
-    const auto cells_bytes = static_cast<std::size_t>(length_) * sizeof(Level);
-    std::uint32_t target = interner_.find(
-        hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, cells_bytes) == 0; });
-    if (target != Interner::kNone) {
-      interner_.hold(target);
-    } else {
-      target = interner_.add(hash);
-      std::copy_n(lanes, stride_, levels_.data() + target * stride_);
-    }
-    move_to(r, target);
+    std::uint32_t& slot = slots_[static_cast<std::size_t>(r)];
+    interner_->drop(slot);
+    slot = enter(lanes + margins_.before, hash);
   }
   /// Makes a row equal to another one. @returns whether it was not.
   bool copy_row(std::int64_t from, std::int64_t to) {
@@ -152,18 +143,20 @@ class LevelRows {
       return true;
     }
     const std::uint32_t target = slots_[static_cast<std::size_t>(from)];
-    if (slots_[static_cast<std::size_t>(to)] == target) return false;
-    interner_.hold(target);
-    move_to(to, target);
+    std::uint32_t& slot = slots_[static_cast<std::size_t>(to)];
+    if (slot == target) return false;
+    interner_->drop(slot);
+    interner_->hold(target);
+    slot = target;
     return true;
   }
   /// A number for what a row holds: equal numbers mean equal rows, and different numbers different rows, also
   /// at different times, until renumber() is called. @pre rows are interned
   [[nodiscard]] std::uint32_t content(std::int64_t r) const {
     REQUIRES(is_interned());
-    return interner_.content(slots_[static_cast<std::size_t>(r)]);
+    return interner_->content(slots_[static_cast<std::size_t>(r)]);
   }
-  void renumber() { interner_.renumber(); }
+  void renumber() { interner_->renumber(); }
 
   /// Closes a row of this layout that stands outside this object.
   void close_row(Level* cells) const { close_from(cells, 0); }
@@ -235,10 +228,14 @@ class LevelRows {
   [[nodiscard]] const Level* at(std::int64_t slot) const {
     return levels_.data() + slot * stride_ + margins_.before;
   }
-  void move_to(std::int64_t r, std::uint32_t target) {
-    std::uint32_t& slot = slots_[static_cast<std::size_t>(r)];
-    interner_.drop(slot);
-    slot = target;
+  /// A row comes to a slot with these cells, which stand, closed, between their margins.
+  [[nodiscard]] std::uint32_t enter(const Level* cells, std::uint64_t hash) {
+    const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
+    return interner_->enter(
+        hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, bytes) == 0; },
+        [&](std::uint32_t slot) {
+          std::copy_n(cells - margins_.before, stride_, levels_.data() + slot * stride_);
+        });
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
@@ -263,43 +260,21 @@ class LevelRows {
   RowMargins margins_;
   std::int64_t stride_ = 0;
   ZeroedArray<Level> levels_;
-  std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not interned
-  Interner interner_;
-  std::vector<Level> lanes_;  ///< the row being put, with its margins; only if rows are interned
+  std::vector<std::uint32_t> slots_;    ///< [row]; empty: rows are not interned
+  std::unique_ptr<Interner> interner_;  ///< null: rows are not interned
 };
 
 /// Gives each row held the cells that `fill(row, cells)` writes, which may be whole blocks beyond the row and
-/// read that row of `levels`. All threads do the work; then one puts the rows that are interned, in ascending
-/// order.
+/// read that row of `levels`.
 template <class Level, class Fill>
 void put_rows(LevelRows<Level>& levels, ThreadTeam& team, const Fill& fill) {
-  const std::int64_t width = levels.stride() + static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
-  if (!levels.is_interned()) {
-    return for_each_held_row(team, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int) {
-      std::vector<Level> cells(static_cast<std::size_t>(width));
-      for (std::int64_t r = range.begin; r < range.end; ++r) {
-        fill(r, cells.data());
-        levels.put(r, cells.data());
-      }
-    });
-  }
-  const std::int64_t most = std::clamp<std::int64_t>(kMostLevelsOfBatch / width, 1, levels.rows());
-  ZeroedArray<Level> lanes(static_cast<std::size_t>(most * width));
-  std::vector<std::uint64_t> ready(static_cast<std::size_t>(most));
-  for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
-    for (std::int64_t begin = run.begin; begin < run.end; begin += most) {
-      const std::int64_t count = std::min(most, run.end - begin);
-      const auto lanes_of = [&](std::int64_t k) { return lanes.data() + k * width; };
-      team.for_each(count, count / (kTasksOfThread * team.size()), [&](ThreadTeam::Range range, int) {
-        for (std::int64_t k = range.begin; k < range.end; ++k) {
-          fill(begin + k, lanes_of(k) + levels.margins().before);
-          ready[static_cast<std::size_t>(k)] = levels.make_ready(lanes_of(k));
-        }
-      });
-      for (std::int64_t k = 0; k < count; ++k)
-        levels.put_ready(begin + k, lanes_of(k), ready[static_cast<std::size_t>(k)]);
+  for_each_held_row(team, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+    std::vector<Level> lanes(static_cast<std::size_t>(levels.stride()) + kLevelBlock / sizeof(Level));
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      fill(r, lanes.data() + levels.margins().before);
+      levels.put_ready(r, lanes.data(), levels.make_ready(lanes.data()));
     }
-  }
+  });
 }
 
 /// Gives each row held the greatest level in the cells of a set, and 0 in others.
