@@ -53,6 +53,10 @@ class PostReader {
     if (sums_) sums_->enter(unit, levels);
   }
 
+  /// From now on only these lanes of rows are asked about, where posts are cut: what stands in others means
+  /// nothing.
+  void set_lanes(LaneRange lanes) { boxes_.set_lanes(lanes); }
+
   /// Levels may be others from now on: this reader and its copies forget what they keep of units, until they
   /// enter one. For one thread, while no other reads.
   void forget() const;

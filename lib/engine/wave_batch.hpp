@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -13,16 +14,9 @@
 #include "engine/level_delta.hpp"
 #include "engine/tile_memo.hpp"
 #include "engine/wave.hpp"
+#include "engine/wave_worker.hpp"
 
 namespace coordreq {
-
-/// What a batch of a wave did, in rows.
-struct BatchCounts {
-  std::int64_t visited = 0;
-  std::int64_t copied = 0;    ///< instead of being visited
-  std::int64_t permuted = 0;  ///< made equal to their canonical row
-  std::int64_t changed = 0;   ///< of all of these but the permuted ones
-};
 
 /// Works out batches of a wave: chooses the rows that are pending, applies the operator to them, and writes
 /// those that have changed, each step by all threads.
@@ -103,49 +97,19 @@ class WaveBatch {
 
  private:
   /// Fewer units are chosen from, with the memo or without, and fewer rows written, sooner than handed out.
-  static constexpr std::int64_t kFewAsked = 16;
+  static constexpr std::int64_t kFewAsked = 8;
   static constexpr std::int64_t kFewUnits = 64;
   static constexpr std::int64_t kFewRows = 16;
+  /// Fewer lanes of a row are computed sooner than handed out.
+  static constexpr std::int64_t kLanesOfPart = 2048;
 
-  struct Change {
-    std::int64_t row;
-    std::size_t offset;   ///< in the worker's storage
-    std::uint64_t ready;  ///< LevelRows::make_ready()
-  };
-  /// Rows of one unit for one thread.
-  struct Task {
-    std::int64_t unit;
-    std::int64_t begin;
-    std::int64_t end;
-    bool is_wanted;           ///< its rows are known to be pending
-    std::uint32_t query = 0;  ///< TileMemo::ask()
-  };
   /// A tile that will be equal to another one.
   struct Copy {
     std::int64_t from;
     std::int64_t to;
   };
-  struct Worker {
-    Worker(int w, const PostReader<Level>& first, const DirtyRows& dirty_rows)
-        : number(w),
-          posts(first),
-          old(posts.lanes(), 0),
-          next(posts.lanes(), 0),
-          result(posts.lanes(), 0),
-          dirty(dirty_rows.make_scratch()) {}
-    int number;
-    PostReader<Level> posts;
-    std::vector<Level> old;
-    std::vector<Level> next;
-    std::vector<Level> result;
-    std::vector<Level> storage;  ///< rows that have changed
-    std::vector<Change> changes;
-    std::vector<Task> chosen;
-    DirtyRows::Scratch dirty;
-    typename TileMemo<Level>::Scratch memo;
-    BatchCounts counts;
-    Level lowest = kTop;  ///< to which a cell has sunk
-  };
+  using Worker = WaveWorker<Level>;
+  using Change = typename Worker::Change;
 
   [[nodiscard]] Worker& worker(int w) { return workers_[static_cast<std::size_t>(w)]; }
 
@@ -157,12 +121,6 @@ class WaveBatch {
                    [&](ThreadTeam::Range range, int w) {
                      for (std::int64_t k = range.begin; k < range.end; ++k) work(k, worker(w));
                    });
-  }
-
-  /// share() for rows to be written. Rows that are interned are written by one thread.
-  template <class Write>
-  void share_writing(std::int64_t count, const Write& write) {
-    share(count, levels_.is_interned() ? count + 1 : kFewRows, write);
   }
 
   /// Adds what is pending of a unit to what the worker has chosen.
@@ -197,7 +155,7 @@ class WaveBatch {
     tasks_.clear();
     copies_.clear();
     for (Worker& worker : workers_) {
-      for (const Task& task : worker.chosen) {
+      for (const WaveTask& task : worker.chosen) {
         const std::int64_t tile = memo_.is_on() ? task.begin / memo_.rows() : 0;
         const std::int64_t first = memo_.is_on() ? memo_.first(task.query) : 0;
         if (first == tile) {
@@ -213,9 +171,10 @@ class WaveBatch {
 
   /// Does all tasks; where patches are kept of units those of few units at a time.
   void visit_tasks() {
+    if (const std::int64_t parts = parts_of_row(); parts > 1) return visit_in_parts(tasks_.front(), parts);
     const PostReader<Level>& posts = workers_.front().posts;
     const auto most = static_cast<std::size_t>(posts.units_at_once(team_.size()));
-    for (std::span<const Task> rest(tasks_); !rest.empty();) {
+    for (std::span<const WaveTask> rest(tasks_); !rest.empty();) {
       const std::size_t count = std::min(most, rest.size());
       divide(rest.first(count));
       rest = rest.subspan(count);
@@ -227,11 +186,11 @@ class WaveBatch {
 
   /// pieces_ = these tasks. Where there are few units, their rows are divided between the threads, at the
   /// price that several of them may find the same minima.
-  void divide(std::span<const Task> tasks) {
+  void divide(std::span<const WaveTask> tasks) {
     const std::int64_t wanted = team_.size() == 1 ? 1 : kTasksOfThread * team_.size();
     const std::int64_t segments = (wanted + std::ssize(tasks) - 1) / std::ssize(tasks);
     pieces_.clear();
-    for (Task task : tasks) {
+    for (WaveTask task : tasks) {
       const std::int64_t end = task.end;
       const std::int64_t rows = (end - task.begin + segments - 1) / segments;
       for (; task.begin < end; task.begin = task.end) {
@@ -241,7 +200,7 @@ class WaveBatch {
     }
   }
 
-  void visit(const Task& task, Worker& worker) {
+  void visit(const WaveTask& task, Worker& worker) {
     const bool asks_delta = delta_ && !dirty_.is_unseen(task.unit);
     worker.posts.enter(task.begin, asks_delta ? delta_->levels() : levels_);
     if (!task.is_wanted && !dirty_.is_unseen(task.unit)) dirty_.enter(task.unit, worker.dirty);
@@ -252,30 +211,45 @@ class WaveBatch {
     }
   }
 
+  /// In how many parts the row is computed that is all the work of this batch: one where there is more.
+  [[nodiscard]] std::int64_t parts_of_row() const {
+    if (tasks_.size() != 1 || !engine_.posts().is_cut()) return 1;
+    if (!tasks_.front().is_wanted || tasks_.front().end - tasks_.front().begin > 1) return 1;
+    return std::min<std::int64_t>(team_.size(), levels_.row_length() / kLanesOfPart);
+  }
+
+  /// Divides the lanes of a row between the threads, and joins what they find.
+  void visit_in_parts(const WaveTask& task, std::int64_t parts) {
+    workers_.front().posts.forget();
+    const RowPosition position(engine_.grid(), task.begin);
+    std::vector<Level> joined(levels_.row(task.begin), levels_.row(task.begin) + levels_.row_length());
+    std::atomic<bool> is_changed = false;
+    share(parts, 2, [&](std::int64_t part, Worker& worker) {
+      const auto lane = [&](std::int64_t p) {
+        return static_cast<std::size_t>(levels_.row_length() * p / parts);
+      };
+      const LaneRange lanes{lane(part), lane(part + 1)};
+      worker.posts.enter(task.begin, levels_);
+      worker.posts.set_lanes(lanes);
+      if (worker.find(levels_, op_, limit_, position, lanes)) {
+        std::copy_n(worker.result.begin() + static_cast<std::ptrdiff_t>(lanes.begin), lanes.size(),
+                    joined.begin() + static_cast<std::ptrdiff_t>(lanes.begin));
+        is_changed = true;
+      }
+      worker.posts.set_lanes(engine_.all_lanes());
+    });
+    ++counts_.visited;
+    if (is_changed) workers_.front().keep(levels_, task.begin, joined.data());
+  }
+
   void visit_row(const RowPosition& position, Worker& worker) {
     ++worker.counts.visited;
-    const auto n = static_cast<std::size_t>(levels_.row_length());
-    std::copy_n(levels_.row(position.row), n, worker.old.begin());
-    levels_.clear_gaps(worker.old.data());
-    if (!op_.next_levels(position, worker.posts, worker.old.data(), worker.next.data(), worker.number))
-      return;
-    const LevelKernels<Level>& kernels = worker.posts.kernels();
-    const bool is_changed =
-        op_.rises() ? kernels.rise(worker.next.data(), worker.old.data(), worker.result.data(), n)
-                    : kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n);
-    if (!is_changed) return;
-    if (!op_.rises())
-      worker.lowest =
-          std::min(worker.lowest, kernels.lowest_change(worker.result.data(), worker.old.data(), n));
-    const std::size_t offset = worker.storage.size();
-    worker.storage.resize(offset + static_cast<std::size_t>(levels_.stride()));
-    Level* const lanes = worker.storage.data() + offset;
-    std::copy_n(worker.result.begin(), n, lanes + levels_.margins().before);
-    worker.changes.push_back({position.row, offset, levels_.make_ready(lanes)});
+    if (worker.find(levels_, op_, limit_, position, engine_.all_lanes()))
+      worker.keep(levels_, position.row, worker.result.data());
   }
 
   void mark_seen() {
-    for (const Task& task : tasks_) dirty_.mark_seen(task.unit);
+    for (const WaveTask& task : tasks_) dirty_.mark_seen(task.unit);
     for (const Copy& copy : copies_) dirty_.mark_seen(units_.of(copy.to * memo_.rows()));
   }
 
@@ -286,7 +260,7 @@ class WaveBatch {
       ends_.push_back((ends_.empty() ? 0 : ends_.back()) + std::ssize(worker.changes));
     const std::int64_t count = ends_.back();
     counts_.changed += count;
-    share_writing(count, [&](std::int64_t k, Worker& by) {
+    share(count, kFewRows, [&](std::int64_t k, Worker& by) {
       const auto owner = static_cast<std::size_t>(std::ranges::upper_bound(ends_, k) - ends_.begin());
       const Worker& from = workers_[owner];
       commit(from, from.changes[static_cast<std::size_t>(k - ends_[owner] + std::ssize(from.changes))], by);
@@ -315,12 +289,12 @@ class WaveBatch {
   /// Copies rows on which the work was equal, and numbers the contents of tiles that have changed.
   void copy() {
     const std::int64_t copies = std::ssize(copies_);
-    share_writing(copies,
-                  [&](std::int64_t k, Worker& by) { copy(copies_[static_cast<std::size_t>(k)], by); });
+    share(copies, kFewRows,
+          [&](std::int64_t k, Worker& by) { copy(copies_[static_cast<std::size_t>(k)], by); });
     if (!memo_.is_on() || memo_.rows() == 1) return;
     share(copies + std::ssize(tasks_), kFewRows, [&](std::int64_t k, Worker& by) {
       if (k < copies) return renumber(copies_[static_cast<std::size_t>(k)].to, by);
-      const Task& task = tasks_[static_cast<std::size_t>(k - copies)];
+      const WaveTask& task = tasks_[static_cast<std::size_t>(k - copies)];
       if (task.begin == task.unit * memo_.rows()) renumber(task.unit, by);
     });
   }
@@ -381,8 +355,8 @@ class WaveBatch {
   Level lowest_ = kTop;
   BatchCounts counts_;
   std::deque<Worker> workers_;
-  std::vector<Task> tasks_;
-  std::vector<Task> pieces_;  ///< of some of them, for one thread each
+  std::vector<WaveTask> tasks_;
+  std::vector<WaveTask> pieces_;  ///< of some of them, for one thread each
   std::vector<Copy> copies_;
   std::vector<std::int64_t> ends_;  ///< [worker] changes up to its own
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <vector>
 
 namespace coordreq {
@@ -94,6 +96,52 @@ TEST(FindLevels, WithAnyNumberOfThreads) {
     expect_levels(300, -1, threads);
     expect_levels(66000, -1, threads);
     expect_levels(66000, 65535, threads);
+  }
+}
+
+/// All cells of a row move on by so many along it.
+constexpr std::int32_t kAhead = 100;
+
+class MoveOn final : public RowOperator<std::uint8_t> {
+ public:
+  explicit MoveOn(std::atomic<int>& parts) : parts_(parts) {}
+
+  bool next_levels(const RowPosition& position, PostReader<std::uint8_t>& posts, const std::uint8_t* old,
+                   std::uint8_t* next, int /*worker*/) override {
+    const std::size_t n = posts.lanes() - kLevelBlock;
+    if (std::count(old, old + n, 0) > 0) ++parts_;
+    RowBox box;
+    const auto row = static_cast<std::int32_t>(position.row);
+    box.ranges.assign(1, {row, row});
+    box.windows.assign(1, {kAhead, kAhead});
+    std::copy_n(posts.minimum(box), n, next);
+    return true;
+  }
+
+ private:
+  std::atomic<int>& parts_;  ///< calls for some of the lanes
+};
+
+TEST(FindLevels, OfALongRowWhoseLanesThreadsDivide) {
+  constexpr std::int64_t kLength = 10'007;
+  Abstraction abstraction = stillness(2, kLength);
+  abstraction.tables[1].entries.assign(1, {kAhead, kAhead});
+  const RowEngine engine(abstraction, nullptr, {});
+  const RowHull hull(engine);
+  CellSet start(2, kLength);
+  for (std::int64_t x = 0; x < kLength; ++x) start.set(x);
+  for (const int threads : {1, 2, 7}) {
+    std::atomic<int> parts = 0;
+    const LevelProblem problem{.start = &start, .make8 = [&] { return std::make_unique<MoveOn>(parts); }};
+    ThreadTeam team(threads);
+    WaveCounts counts;
+    const LevelMap levels = find_levels(engine, hull, problem, {}, team, counts);
+    EXPECT_EQ(parts > 0, threads > 1);
+    EXPECT_EQ(counts.rows_visited, (kLength + kAhead - 1) / kAhead + 1);
+    std::int64_t wrong = 0;
+    for (std::int64_t x = 0; x < kLength; ++x)
+      wrong += levels.at(x) == (kLength - x + kAhead - 1) / kAhead ? 0 : 1;
+    EXPECT_EQ(wrong, 0) << threads << " threads";
   }
 }
 
