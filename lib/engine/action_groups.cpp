@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <numeric>
-#include <tuple>
 #include <unordered_map>
 
 #include "base/fast_paths.hpp"
 #include "base/requires.hpp"
 #include "engine/limits.hpp"
+#include "engine/list_numbers.hpp"
 
 namespace coordreq {
 namespace {
@@ -74,15 +73,14 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
   const std::vector<std::int64_t> used_offsets = used.offsets(source.input_stride);
   const std::vector<std::int64_t> other_offsets = others.offsets(source.input_stride);
   const auto total = static_cast<std::int64_t>(source.ids->size());
-  std::map<std::vector<std::uint32_t>, std::uint32_t> numbers;
+  ListNumbers<std::uint32_t> numbers;
+  std::vector<std::uint32_t> column;
   for (std::int64_t base = 0; base < total; base += source.input_combinations) {
     for (const std::int64_t offset : used_offsets) {
-      std::vector<std::uint32_t> column;
-      for (const std::int64_t other : other_offsets) {
+      column.clear();
+      for (const std::int64_t other : other_offsets)
         column.push_back((*source.ids)[static_cast<std::size_t>(base + offset + other)]);
-      }
-      const auto next = static_cast<std::uint32_t>(numbers.size());
-      view.partial.push_back(numbers.try_emplace(std::move(column), next).first->second);
+      view.partial.push_back(numbers.number(column));
     }
   }
   return view;
@@ -200,20 +198,21 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     }
     return find_groups(data, RowPosition(grid, row));
   };
-  std::map<std::tuple<std::vector<std::uint32_t>, std::vector<std::uint8_t>>, std::uint32_t> numbers;
-  for (std::int64_t first = held.begin; first < held.end; first += kGroupsFoundAtOnce) {
-    std::vector<ActionGroups> found(static_cast<std::size_t>(std::min(kGroupsFoundAtOnce, held.end - first)));
-    team.for_each(std::ssize(found), 16, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t i = range.begin; i < range.end; ++i)
-        found[static_cast<std::size_t>(i)] = find(first + i);
-    });
-    for (ActionGroups& groups : found) {
-      const auto next = static_cast<std::uint32_t>(numbers.size());
-      const auto [it, is_new] = numbers.try_emplace({groups.group_of, groups.within}, next);
-      data.shared.push_back(it->second);
-      if (is_new) data.distinct.push_back(std::move(groups));
+  SharedListNumbers lists;
+  data.shared.resize(static_cast<std::size_t>(held.end - held.begin));
+  team.for_each(std::ssize(data.shared), 16, [&](ThreadTeam::Range range, int) {
+    std::vector<std::uint32_t> list;
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      ActionGroups groups = find(held.begin + i);
+      list = groups.group_of;
+      list.resize(list.size() + (groups.within.size() + 3) / 4, 0);
+      std::ranges::copy(groups.within, reinterpret_cast<std::uint8_t*>(list.data() + groups.group_of.size()));
+      data.shared[static_cast<std::size_t>(i)] =
+          lists.number(list, [&](std::size_t shard, std::uint32_t number) {
+            if (number == data.distinct[shard].size()) data.distinct[shard].push_back(std::move(groups));
+          });
     }
-  }
+  });
 }
 
 void ActionGrouping::group(const RowPosition& position, RowGroups& groups) const {
@@ -227,7 +226,9 @@ void ActionGrouping::group(const RowPosition& position, RowGroups& groups) const
       continue;
     }
     const std::int64_t choice = position.offset(data.state_stride) - data.before;
-    groups.classes[c] = &data.distinct[data.shared[static_cast<std::size_t>(choice)]];
+    const std::uint32_t number = data.shared[static_cast<std::size_t>(choice)];
+    groups.classes[c] =
+        &data.distinct[SharedListNumbers::shard_of(number)][SharedListNumbers::in_shard(number)];
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "base/thread_team.hpp"
 #include "engine/action_sources.hpp"
 #include "engine/row_engine.hpp"
+#include "engine/shared_list_numbers.hpp"
 #include "model/input_class.hpp"
 
 namespace coordreq {
@@ -92,7 +94,7 @@ class ActionGrouping {
         state_stride;                   ///< into `shared`, by state; 0 where the class does not depend on it
     std::vector<std::uint32_t> shared;  ///< [choice of these states] number in `distinct`; empty: not shared
     std::int64_t before = 0;            ///< choices before the first one in `shared`
-    std::vector<ActionGroups> distinct;
+    std::array<std::vector<ActionGroups>, SharedListNumbers::kShards> distinct;  ///< [shard][number in it]
   };
 
   [[nodiscard]] ClassData make_class(const InputClass& inputs) const;

@@ -18,10 +18,6 @@ inline constexpr std::int64_t kMostComparedGroups = 128;
   return kMostSharedActions / (actions + compared * compared / 4);
 }
 
-/// Choices of states whose groups are found at once, before equal groups are thrown away: there may be
-/// thousands of choices, and groups that are compared take some kilobytes.
-inline constexpr std::int64_t kGroupsFoundAtOnce = 256;
-
 /// Bytes of the minima that one thread shares between the rows of a unit: they stay in the second-level
 /// cache.
 inline constexpr std::int64_t kSharedBytes = std::int64_t{1} << 20;

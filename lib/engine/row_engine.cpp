@@ -112,8 +112,12 @@ void RowEngine::add_family(const std::vector<TransitionTable>& tables,
   std::vector<RowSlices> sums;
   if (slices_.empty()) sums = summed_slices();
   const std::size_t cut = tables.size() - sums.size();
-  for (std::size_t i = 0; i < cut; ++i)
-    slices_.push_back(cut_into_rows(*abstraction_, tables[i], i, targets[i]));
+  const std::size_t first = slices_.size();
+  slices_.resize(first + cut);
+  for_each(team, static_cast<std::int64_t>(cut), 1, [&](ThreadTeam::Range range, int) {
+    for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i)
+      slices_[first + i] = cut_into_rows(*abstraction_, tables[i], i, targets[i]);
+  });
   for (RowSlices& slices : sums) slices_.push_back(std::move(slices));
   RowShape& shape = shapes_.emplace_back();
   for (std::size_t i = across(); i < tables.size(); ++i) {

@@ -214,7 +214,7 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
   if (along_in_use_) kept[along] = kept_ranges(axes[along], rows_, team);
   for (const std::size_t slot : across_) kept[slot] = kept_ranges(axes[slot], rows_ / counts_[slot], team);
   const auto words = static_cast<std::size_t>(words_per_row());
-  const std::int64_t grain = std::max<std::int64_t>(1, 4096 / row_length_);
+  const std::int64_t grain = std::max<std::int64_t>(1, 1024 / row_length_);
   team.for_each(rows_, grain, [&](ThreadTeam::Range range, int) {
     std::optional<Filler> filler;  // most ranges need none
     for (std::int64_t r = range.begin; r < range.end; ++r) {

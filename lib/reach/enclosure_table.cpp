@@ -217,7 +217,7 @@ void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynami
   std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
   const Odometer all = choices.odometer();
   for (EnclosureTable& table : tables) table.divide(positions, divided_range(ranks, all.size()), ranks);
-  for_each_divided(ranks, team, all.size(), 64, [&](ThreadTeam::Range range, int worker) {
+  for_each_divided(ranks, team, all.size(), 4, [&](ThreadTeam::Range range, int worker) {
     StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
     Odometer choice = all;
     choice.seek(range.begin);
