@@ -40,7 +40,6 @@ BoxReader<Level>::BoxReader(const RowEngine& engine, const RowFamily& family, st
       shape_(family.shape) {
   constexpr std::size_t kBlock = kLevelBlock / sizeof(Level);
   lanes_ = static_cast<std::size_t>(levels.row_length()) + kBlock;
-  asked_ = engine.all_lanes();
   const std::size_t padded = static_cast<std::size_t>(levels.stride()) + kBlock;
   gone_row_.assign(padded, kTop);
   levels.close_row(gone_row_.data() + levels.margins().before);
@@ -153,11 +152,13 @@ void BoxReader<Level>::read_segment(const RowSegment& last, bool gone, std::int6
 /// Reads the minimum over all rows of the box and all offsets of the windows.
 template <class Level>
 void BoxReader<Level>::read_windows(bool gone, std::int64_t begin, std::int64_t end, Level* out) {
-  const std::int64_t asked = std::max(begin, static_cast<std::int64_t>(asked_.begin));
-  end = std::min(end, static_cast<std::int64_t>(asked_.end));
-  if (asked >= end) return;
-  out += asked - begin;
-  begin = asked;
+  if (is_part_asked_) {
+    const std::int64_t asked = std::max(begin, static_cast<std::int64_t>(asked_.begin));
+    end = std::min(end, static_cast<std::int64_t>(asked_.end));
+    if (asked >= end) return;
+    out += asked - begin;
+    begin = asked;
+  }
   collect_rows(gone);
   const std::size_t along = windows_.size();
   std::int64_t first = begin;

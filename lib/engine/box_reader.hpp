@@ -33,7 +33,10 @@ class BoxReader {
     ++epoch_;
   }
   /// From now on only these lanes of rows are asked about: what stands in others means nothing.
-  void set_lanes(LaneRange lanes) { asked_ = lanes; }
+  void set_lanes(LaneRange lanes) {
+    asked_ = lanes;
+    is_part_asked_ = lanes.size() < engine_.all_lanes().size();
+  }
   /// Least levels of the boxes given by the numbers of their slices, one a table: for each cell of the row
   /// the minimum over its box; 0 where a slice is blocked, else the greatest level where the post has left
   /// for good. The row may be read up to the next call; whole blocks, as LevelKernels ask.
@@ -72,7 +75,8 @@ class BoxReader {
   const LevelRows<Level>* levels_;
   const LevelKernels<Level>* kernels_;
   std::size_t lanes_;
-  LaneRange asked_;  ///< set_lanes()
+  LaneRange asked_;             ///< set_lanes()
+  bool is_part_asked_ = false;  ///< not all lanes are
   RowShape shape_;
   std::vector<IndexRange> ranges_;   ///< of the box being read, in the dimensions across rows
   std::vector<IndexRange> windows_;  ///< of that box, along rows
