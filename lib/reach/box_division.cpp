@@ -96,6 +96,14 @@ bool BoxDivision::is_lost() const {
   return is_spent() && deepest_failure() < subboxes_.size();
 }
 
+bool BoxDivision::may_gain_by_short_steps() const {
+  const auto is_long = [](const Subbox& subbox) { return subbox.found.in_long_steps; };
+  if (std::none_of(subboxes_.begin(), subboxes_.end(), is_long)) return false;
+  bool close = deepest_failure() == subboxes_.size();
+  for (std::size_t side = 0; side < given_up_.size(); ++side) close = close && missing(side) == 0.0;
+  return !close;
+}
+
 bool BoxDivision::refine(const Enclose& enclose) {
   const std::size_t first_subboxes = subboxes_.size();
   for (;;) {

@@ -59,6 +59,8 @@ class BoxDivision {
   void add(std::vector<Interval> box, const FlowEnclosure& found, int depth = 0);
   /// Whether a subbox has no enclosure and nothing of the effort is left.
   [[nodiscard]] bool is_lost() const;
+  /// Whether a subbox took long steps, and one has no enclosure or an end lies too far from what is reached.
+  [[nodiscard]] bool may_gain_by_short_steps() const;
   /// Halves subboxes for as long as it pays. @returns whether all of them have enclosures
   bool refine(const Enclose& enclose);
 

@@ -92,7 +92,8 @@ void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
   step_count_ = 0;
   for (std::size_t i = 0; i < n_; ++i) initial_[i] = field_.clipped(i, slots[system_.state_slots[i]]);
   for (std::size_t l = 0; l < m_; ++l) disturbance_[l] = slots[system_.disturbance_slots[l]];
-  takes_long_steps_ = is_subbox_ && tangent_ && is_line(initial_);
+  takes_long_steps_ = may_take_long_steps_ && is_line(initial_);
+  result_.in_long_steps = takes_long_steps_;
   if (takes_long_steps_) tangent_->begin(slots);
   now_ = initial_;
   solution_count_ = 0;
@@ -213,7 +214,7 @@ std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& durat
   if (field_.is_on_seam(box_)) return try_step_on_seam(duration);
   FlowStep& step = next_step();
   step.duration = duration;
-  if (tangent_) step.start = now_;
+  if (takes_long_steps_) step.start = now_;
   find_damping(duration);
   step.smooth = decide(tape_, field_.values(), step.choices) && all_free_;
   set_tolerance();

@@ -15,7 +15,7 @@ namespace coordreq {
 /// A sub-step of the flow, as needed to follow solutions through it.
 struct FlowStep {
   Interval duration;
-  std::vector<Interval> start;  ///< where all solutions are at its beginning; only with tangents
+  std::vector<Interval> start;  ///< where all solutions are at its beginning; only of long steps
   bool smooth = false;          ///< the remainder holds for every solution from the initial box
   TaylorRemainder remainder;
   Choices choices;
@@ -51,7 +51,7 @@ class ValidatedFlow::Solver {
   Solver(FlowSystem system, const Interval& period);
 
   const FlowEnclosure& flow(std::span<const Interval> slots);
-  const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots);
+  const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots, bool long_steps);
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
   [[nodiscard]] std::int64_t extra_steps() const;
@@ -159,11 +159,12 @@ class ValidatedFlow::Solver {
   double fastest_growth_ = 0.0;
   std::size_t stiffest_ = 0;
   bool gave_up_ = false;
-  bool always_smooth_;             ///< no step meets a kink, a limit or a seam
-  bool takes_long_steps_ = false;  ///< tangents tell how far solutions diverge in them
-  bool is_subbox_ = false;         ///< the box is divided further where that pays
-  bool all_free_ = true;           ///< no state may run into a limit in this step
-  bool ever_stopped_ = false;      ///< in an earlier one it might
+  bool always_smooth_;                ///< no step meets a kink, a limit or a seam
+  bool takes_long_steps_ = false;     ///< tangents tell how far solutions diverge in them
+  bool may_take_long_steps_ = false;  ///< if the box is part of a line
+  bool is_subbox_ = false;            ///< the box is divided further where that pays
+  bool all_free_ = true;              ///< no state may run into a limit in this step
+  bool ever_stopped_ = false;         ///< in an earlier one it might
   FlowEnclosure result_;
 };
 

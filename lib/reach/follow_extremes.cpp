@@ -101,7 +101,7 @@ void ValidatedFlow::Solver::advance_smoothly(const FlowStep& step, std::vector<I
 /// A solution is among all of them, and so is the middle of where it can be then: where bounds for all of
 /// them hold.
 void ValidatedFlow::Solver::keep_within(const FlowStep& step, std::vector<Interval>& state) const {
-  for (std::size_t i = 0; tangent_ && i < n_; ++i)
+  for (std::size_t i = 0; takes_long_steps_ && i < n_; ++i)
     state[i] = intersect(state[i], step.start[i]).value_or(state[i]);
 }
 

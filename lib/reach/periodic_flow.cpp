@@ -72,11 +72,11 @@ PeriodicFlow::Wound PeriodicFlow::wind_system(const FlowSystem& system, Represen
 }
 
 const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots) {
-  return flow(slots, false);
+  return flow(slots, Kind::whole);
 }
 
-const FlowEnclosure& PeriodicFlow::flow_of_subbox(std::span<const Interval> slots) {
-  return flow(slots, true);
+const FlowEnclosure& PeriodicFlow::flow_of_subbox(std::span<const Interval> slots, bool long_steps) {
+  return flow(slots, long_steps ? Kind::subbox_in_long_steps : Kind::subbox);
 }
 
 std::int64_t PeriodicFlow::extra_steps() const {
@@ -98,10 +98,10 @@ bool PeriodicFlow::keeps_apart(std::span<const Interval> box) {
   return inside && plain_.keeps_apart(box);
 }
 
-const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots, bool is_subbox) {
-  const auto enclose = [is_subbox](ValidatedFlow& flow,
-                                   std::span<const Interval> boxes) -> const FlowEnclosure& {
-    return is_subbox ? flow.flow_of_subbox(boxes) : flow.flow(boxes);
+const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots, Kind kind) {
+  const auto enclose = [kind](ValidatedFlow& flow, std::span<const Interval> boxes) -> const FlowEnclosure& {
+    return kind == Kind::whole ? flow.flow(boxes)
+                               : flow.flow_of_subbox(boxes, kind == Kind::subbox_in_long_steps);
   };
   const FlowEnclosure& plain = enclose(plain_, slots);
   if (windings_.empty() || stays(plain)) return plain;

@@ -30,8 +30,8 @@ class PeriodicFlow {
   /// such a box touches `upper`, that point itself is not meant.
   /// @param slots as in ValidatedFlow::flow() @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
-  /// flow() for a subbox of one that the caller divides further where that pays: with less work.
-  [[nodiscard]] const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots);
+  /// See ValidatedFlow.
+  [[nodiscard]] const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots, bool long_steps);
 
   /// Whether no two solutions can meet within `box`, see ValidatedFlow, and no periodic state that an
   /// equation mentions gets to its seam there. For the slots of the last flow().
@@ -45,6 +45,7 @@ class PeriodicFlow {
   [[nodiscard]] double period() const { return period_; }
 
  private:
+  enum class Kind : std::uint8_t { whole, subbox, subbox_in_long_steps };
   /// A periodic state that an equation mentions.
   struct Winding {
     std::size_t state = 0;  ///< index into the system's
@@ -63,7 +64,7 @@ class PeriodicFlow {
   void find_windings(const FlowSystem& system, const std::vector<std::optional<Ring>>& rings);
   [[nodiscard]] Wound wind_system(const FlowSystem& system, Representative representative,
                                   const Interval& period);
-  [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots, bool is_subbox);
+  [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots, Kind kind);
   [[nodiscard]] bool stays(const FlowEnclosure& plain) const;
   void allow_for(std::int64_t turns, Winding& winding);
   [[nodiscard]] static std::int64_t turns_of(const Winding& winding, const FlowEnclosure& found);

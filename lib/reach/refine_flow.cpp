@@ -56,15 +56,16 @@ const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots
   return result_;
 }
 
-const FlowEnclosure& ValidatedFlow::Solver::flow_of_subbox(std::span<const Interval> slots) {
+const FlowEnclosure& ValidatedFlow::Solver::flow_of_subbox(std::span<const Interval> slots, bool long_steps) {
   for (std::size_t i = 0; i < n_; ++i) {
     const double start = slots[system_.state_slots[i]].width();
     allowed_excess_[i] = system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
   }
   result_.reached.clear();
   is_subbox_ = true;
+  may_take_long_steps_ = long_steps && tangent_;
   enclose(slots, 0);
-  is_subbox_ = false;
+  is_subbox_ = may_take_long_steps_ = false;
   return result_;
 }
 
@@ -204,6 +205,7 @@ bool ValidatedFlow::Solver::bound_by_faces(std::span<const Interval> slots, bool
             [](const Interval& a, const Interval& b) { return intersect(a, b).value_or(a); });
   } else {
     by_faces_.loosest = result_.loosest;
+    by_faces_.in_long_steps = result_.in_long_steps;
     result_ = by_faces_;
   }
   return true;

@@ -42,14 +42,23 @@ const FlowEnclosure& SplitFlow::flow(std::span<const Interval> slots) {
   box_.clear();
   for (const std::uint32_t slot : state_slots_) box_.push_back(slots[slot]);
   const bool by_faces = can_use_faces();
+  FlowEnclosure other = result_;
   if (by_faces ? divide_faces() : divide_all()) use_hull(by_faces);
+  if (division_.may_gain_by_short_steps()) {
+    takes_long_steps_ = false;
+    std::swap(result_, other);
+    const bool found = by_faces ? divide_faces() : divide_all();
+    std::swap(result_, other);
+    if (found) use_hull(by_faces);
+    takes_long_steps_ = true;
+  }
   return result_;
 }
 
 const FlowEnclosure& SplitFlow::flow_of_subbox(std::span<const Interval> box) {
   for (std::size_t i = 0; i < box.size(); ++i) slots_[state_slots_[i]] = box[i];
   const std::int64_t before = flow_.extra_steps();
-  const FlowEnclosure& found = flow_.flow_of_subbox(slots_);
+  const FlowEnclosure& found = flow_.flow_of_subbox(slots_, takes_long_steps_);
   division_.charge(flow_.extra_steps() - before);
   return found;
 }

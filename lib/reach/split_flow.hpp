@@ -22,6 +22,10 @@ namespace coordreq {
 /// Where the whole meets far more cells, the first subboxes are those whose solutions stay close to one
 /// another on their way (SolutionSpread), so that few subboxes are enclosed in vain.
 ///
+/// Parts of a line whose end is a summand take long steps first (ValidatedFlow). Where an end is not close to
+/// what is reached then, the box is divided in short steps, too: no end is farther out than in short steps
+/// alone but by what makes no difference to BoxDivision.
+///
 /// Over-approximates always. Not thread-safe: use a copy a thread.
 class SplitFlow {
  public:
@@ -51,7 +55,8 @@ class SplitFlow {
   BoxDivision division_;
   std::optional<SolutionSpread> spread_;  ///< none if nothing tells which difference is small
   std::int64_t wholes_ = 0;
-  bool is_far_ = false;  ///< the whole meets far more cells than it need
+  bool takes_long_steps_ = true;  ///< where subboxes are lines
+  bool is_far_ = false;           ///< the whole meets far more cells than it need
   std::vector<Interval> slots_;
   std::vector<Interval> box_;  ///< the whole one, of the states
   FlowEnclosure result_;

@@ -25,8 +25,8 @@ const FlowEnclosure& ValidatedFlow::flow(std::span<const Interval> slots) {
   return solver_->flow(slots);
 }
 
-const FlowEnclosure& ValidatedFlow::flow_of_subbox(std::span<const Interval> slots) {
-  return solver_->flow_of_subbox(slots);
+const FlowEnclosure& ValidatedFlow::flow_of_subbox(std::span<const Interval> slots, bool long_steps) {
+  return solver_->flow_of_subbox(slots, long_steps);
 }
 
 std::int64_t ValidatedFlow::extra_steps() const {

@@ -31,6 +31,7 @@ struct FlowEnclosure {
   std::vector<Interval> reached;
   /// Index of the state of whose initial box the least is known what it leads to; any other number: unknown.
   std::size_t loosest = 0;
+  bool in_long_steps = false;  ///< so that short ones may lead to less
 };
 
 /// Guaranteed enclosures of the states that a differential equation reaches after tau, for every initial
@@ -66,7 +67,8 @@ class ValidatedFlow {
   /// @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
   /// flow() for a subbox of one that the caller divides further where that pays: with less work.
-  [[nodiscard]] const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots);
+  /// @param long_steps by tangents, if it is part of a line: still less work, but the result may be wider
+  [[nodiscard]] const FlowEnclosure& flow_of_subbox(std::span<const Interval> slots, bool long_steps);
 
   /// Whether no two solutions can meet within `box`, one interval a state: f is defined and has a Lipschitz
   /// constant on it and a little beyond, and nothing stops there. For the slots of the last flow().
