@@ -71,7 +71,7 @@ double EngineSizes::levels() const {
   constexpr std::int64_t kAlign = 16;
   const RowMargins margins = shape_.margins();
   const std::int64_t row = margins.before + shape_.length() + margins.after;
-  return rows() * in_double((row + kAlign - 1) / kAlign * kAlign) + kLevelBlock;
+  return (rows() + 1) * in_double((row + kAlign - 1) / kAlign * kAlign) + kLevelBlock;
 }
 
 double EngineSizes::usual_bytes(std::size_t t) const {

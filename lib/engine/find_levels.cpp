@@ -53,12 +53,23 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
 /// would be closer, but a process does not hold all of them.
 template <class Level>
 void copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels, ThreadTeam& team) {
-  for_each_held_row(team, levels.share(), levels.rows(), 1 << 10, [&](ThreadTeam::Range range, int) {
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      if (const std::int64_t first = symmetry.canonical_of(r); first != r)
-        static_cast<void>(levels.copy_row(first, r));
+  constexpr std::int64_t kRows = 1 << 16, kRowsAtOnce = 1 << 10;
+  std::vector<std::int64_t> first(kRows);  // found by all threads; rows that are interned are copied by one
+  for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
+    for (std::int64_t begin = run.begin; begin < run.end; begin += kRows) {
+      const std::int64_t count = std::min(kRows, run.end - begin);
+      team.for_each(count, kRowsAtOnce, [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k)
+          first[static_cast<std::size_t>(k)] = symmetry.canonical_of(begin + k);
+      });
+      team.for_each(count, levels.is_interned() ? count : kRowsAtOnce, [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          if (const std::int64_t row = first[static_cast<std::size_t>(k)]; row != begin + k)
+            static_cast<void>(levels.copy_row(row, begin + k));
+        }
+      });
     }
-  });
+  }
 }
 
 /// Whether some cell of any process has this level. Levels in gaps do not count.

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "engine/cell_set.hpp"
 #include "engine/interner.hpp"
 #include "engine/level_kernels.hpp"
+#include "engine/limits.hpp"
 #include "engine/list_numbers.hpp"
 #include "engine/row_shape.hpp"
 #include "ranks/row_share.hpp"
@@ -31,8 +31,8 @@ namespace coordreq {
 /// same, but the system gives only pages that are written. Where several processes share the work each has
 /// the rows of all of them, of which only those that it holds mean something and take memory (RowShare).
 ///
-/// Threads: any number may read while no thread writes. Different threads may write different rows, and read
-/// rows that none writes. make_ready() is for any number of threads at any time.
+/// Threads: any number may read while no thread writes. Different threads may write different rows; interned
+/// rows are written by one thread at a time. make_ready() reads.
 ///
 /// 1. A row that was written is *closed*: its margins and gaps follow from its cells. Interned rows are
 ///    closed from the start.
@@ -59,13 +59,15 @@ class LevelRows {
         margins_(shape_.margins()) {
     constexpr std::int64_t kAlign = 16 / static_cast<std::int64_t>(sizeof(Level));
     stride_ = (margins_.before + length_ + margins_.after + kAlign - 1) / kAlign * kAlign;
-    levels_ = ZeroedArray<Level>(bytes() / sizeof(Level));
+    // One slot more than rows: a row that is put takes a new slot before it leaves its old one.
+    const auto size = static_cast<std::size_t>((rows + 1) * stride_) + kLevelBlock / sizeof(Level);
+    levels_ = ZeroedArray<Level>(size);
     if (!interned || rows == 0) return;
+    lanes_.assign(static_cast<std::size_t>(stride_), 0);
     Level* const first = levels_.data() + margins_.before;
     close_row(first);
-    interner_ = std::make_unique<Interner>(rows);
-    slots_.assign(static_cast<std::size_t>(rows), enter(first, hash_of(first)));
-    interner_->hold(0, static_cast<std::uint32_t>(rows - 1));
+    slots_.assign(static_cast<std::size_t>(rows), interner_.add(hash_of(first)));
+    interner_.hold(0, rows - 1);
   }
 
   LevelRows(LevelRows&&) noexcept = default;
@@ -87,7 +89,7 @@ class LevelRows {
 
   /// Bytes reserved.
   [[nodiscard]] std::size_t bytes() const {
-    return static_cast<std::size_t>(rows_ * stride_) * sizeof(Level) + kLevelBlock;
+    return (static_cast<std::size_t>((rows_ + 1) * stride_) + kLevelBlock / sizeof(Level)) * sizeof(Level);
   }
 
   [[nodiscard]] bool is_interned() const { return !slots_.empty(); }
@@ -106,32 +108,48 @@ class LevelRows {
       change(cells);
       return close_row(cells);
     }
-    std::vector<Level> lanes(static_cast<std::size_t>(stride_));
-    std::copy_n(row(r), length_, lanes.data() + margins_.before);
-    change(lanes.data() + margins_.before);
-    put_ready(r, lanes.data(), make_ready(lanes.data()));
+    std::copy_n(row(r), length_, lanes_.data() + margins_.before);
+    change(lanes_.data() + margins_.before);
+    put_ready(r, lanes_.data(), make_ready(lanes_.data()));
   }
   /// Gives a row these cells, and closes it.
   /// @param cells whole blocks may be read; levels in gaps do not matter
   void put(std::int64_t r, const Level* cells) {
     change_row(r, [&](Level* target) { std::copy_n(cells, length_, target); });
   }
+  /// A row that is ready to be put.
+  struct Ready {
+    std::uint64_t hash = 0;
+    std::uint32_t slot = Interner::kNone;  ///< one that had its content; kNone: there was none
+    std::uint32_t content = 0;             ///< the number of that content
+  };
   /// put() in two steps, the first: closes a row that stands outside this object.
   /// @param lanes stride() of them, margins().before before the first cell
-  /// @returns the hash that put_ready() takes
-  [[nodiscard]] std::uint64_t make_ready(Level* lanes) const {
+  [[nodiscard]] Ready make_ready(Level* lanes) const {
+    const Level* const cells = lanes + margins_.before;
     close_row(lanes + margins_.before);
-    return is_interned() ? hash_of(lanes + margins_.before) : 0;
+    if (!is_interned()) return {};
+    const std::uint64_t hash = hash_of(cells);
+    const std::uint32_t slot = find(hash, cells);
+    return {hash, slot, slot == Interner::kNone ? 0 : interner_.content(slot)};
   }
-  /// put() in two steps, the second. @param lanes after make_ready(), which returned `hash`
-  void put_ready(std::int64_t r, const Level* lanes, std::uint64_t hash) {
+  /// put() in two steps, the second. @param lanes after make_ready(), which returned `ready`, and no
+  /// renumber() since then
+  void put_ready(std::int64_t r, const Level* lanes, const Ready& ready) {
     if (!is_interned()) {
       std::copy_n(lanes, stride_, levels_.data() + r * stride_);
       return;
     }
-    std::uint32_t& slot = slots_[static_cast<std::size_t>(r)];
-    interner_->drop(slot);
-    slot = enter(lanes + margins_.before, hash);
+    std::uint32_t target = ready.slot;
+    if (target == Interner::kNone || !interner_.has(target, ready.content))
+      target = find(ready.hash, lanes + margins_.before);
+    if (target != Interner::kNone) {
+      interner_.hold(target);
+    } else {
+      target = interner_.add(ready.hash);
+      std::copy_n(lanes, stride_, levels_.data() + target * stride_);
+    }
+    move_to(r, target);
   }
   /// Makes a row equal to another one. @returns whether it was not.
   bool copy_row(std::int64_t from, std::int64_t to) {
@@ -143,20 +161,18 @@ class LevelRows {
       return true;
     }
     const std::uint32_t target = slots_[static_cast<std::size_t>(from)];
-    std::uint32_t& slot = slots_[static_cast<std::size_t>(to)];
-    if (slot == target) return false;
-    interner_->drop(slot);
-    interner_->hold(target);
-    slot = target;
+    if (slots_[static_cast<std::size_t>(to)] == target) return false;
+    interner_.hold(target);
+    move_to(to, target);
     return true;
   }
   /// A number for what a row holds: equal numbers mean equal rows, and different numbers different rows, also
   /// at different times, until renumber() is called. @pre rows are interned
   [[nodiscard]] std::uint32_t content(std::int64_t r) const {
     REQUIRES(is_interned());
-    return interner_->content(slots_[static_cast<std::size_t>(r)]);
+    return interner_.content(slots_[static_cast<std::size_t>(r)]);
   }
-  void renumber() { interner_->renumber(); }
+  void renumber() { interner_.renumber(); }
 
   /// Closes a row of this layout that stands outside this object.
   void close_row(Level* cells) const { close_from(cells, 0); }
@@ -228,14 +244,16 @@ class LevelRows {
   [[nodiscard]] const Level* at(std::int64_t slot) const {
     return levels_.data() + slot * stride_ + margins_.before;
   }
-  /// A row comes to a slot with these cells, which stand, closed, between their margins.
-  [[nodiscard]] std::uint32_t enter(const Level* cells, std::uint64_t hash) {
+  void move_to(std::int64_t r, std::uint32_t target) {
+    std::uint32_t& slot = slots_[static_cast<std::size_t>(r)];
+    interner_.drop(slot);
+    slot = target;
+  }
+  /// The slot with these cells, or kNone.
+  [[nodiscard]] std::uint32_t find(std::uint64_t hash, const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
-    return interner_->enter(
-        hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, bytes) == 0; },
-        [&](std::uint32_t slot) {
-          std::copy_n(cells - margins_.before, stride_, levels_.data() + slot * stride_);
-        });
+    return interner_.find(hash,
+                          [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, bytes) == 0; });
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
@@ -260,21 +278,43 @@ class LevelRows {
   RowMargins margins_;
   std::int64_t stride_ = 0;
   ZeroedArray<Level> levels_;
-  std::vector<std::uint32_t> slots_;    ///< [row]; empty: rows are not interned
-  std::unique_ptr<Interner> interner_;  ///< null: rows are not interned
+  std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not interned
+  Interner interner_;
+  std::vector<Level> lanes_;  ///< the row being put, with its margins; only if rows are interned
 };
 
 /// Gives each row held the cells that `fill(row, cells)` writes, which may be whole blocks beyond the row and
-/// read that row of `levels`.
+/// read that row of `levels`. All threads do the work; then one puts the rows that are interned, in ascending
+/// order.
 template <class Level, class Fill>
 void put_rows(LevelRows<Level>& levels, ThreadTeam& team, const Fill& fill) {
-  for_each_held_row(team, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int) {
-    std::vector<Level> lanes(static_cast<std::size_t>(levels.stride()) + kLevelBlock / sizeof(Level));
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      fill(r, lanes.data() + levels.margins().before);
-      levels.put_ready(r, lanes.data(), levels.make_ready(lanes.data()));
+  const std::int64_t width = levels.stride() + static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
+  if (!levels.is_interned()) {
+    return for_each_held_row(team, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+      std::vector<Level> cells(static_cast<std::size_t>(width));
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
+        fill(r, cells.data());
+        levels.put(r, cells.data());
+      }
+    });
+  }
+  const std::int64_t most = std::clamp<std::int64_t>(kMostLevelsOfBatch / width, 1, levels.rows());
+  ZeroedArray<Level> lanes(static_cast<std::size_t>(most * width));
+  std::vector<typename LevelRows<Level>::Ready> ready(static_cast<std::size_t>(most));
+  for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
+    for (std::int64_t begin = run.begin; begin < run.end; begin += most) {
+      const std::int64_t count = std::min(most, run.end - begin);
+      const auto lanes_of = [&](std::int64_t k) { return lanes.data() + k * width; };
+      team.for_each(count, count / (kTasksOfThread * team.size()), [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          fill(begin + k, lanes_of(k) + levels.margins().before);
+          ready[static_cast<std::size_t>(k)] = levels.make_ready(lanes_of(k));
+        }
+      });
+      for (std::int64_t k = 0; k < count; ++k)
+        levels.put_ready(begin + k, lanes_of(k), ready[static_cast<std::size_t>(k)]);
     }
-  });
+  }
 }
 
 /// Gives each row held the greatest level in the cells of a set, and 0 in others.

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "base/fast_paths.hpp"
-#include "base/zeroed_array.hpp"
 #include "engine/action_sources.hpp"
 #include "engine/interner.hpp"
 #include "engine/shared_list_numbers.hpp"
@@ -51,20 +50,15 @@ bool are_possible(const RowEngine& engine) {
 
 }  // namespace
 
-Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading, ThreadTeam* team)
+Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
     : engine_(&engine), hull_(&hull), leading_(leading) {
   rows_ = leading == engine.across() ? 1 : engine.grid().row_stride(leading - 1);
   size_ = engine.rows() / rows_;
   const RowShare::Range local = local_rows(engine.share(), engine.rows());
   local_tiles_ = {local.begin / rows_, local.end / rows_};
-  std::vector<Numbers> numbers(engine.tables());
-  for_each(team, std::ssize(numbers), 1, [&](ThreadTeam::Range range, int) {
-    for (auto t = static_cast<std::size_t>(range.begin); t < static_cast<std::size_t>(range.end); ++t)
-      numbers[t] = number_choices(t);
-  });
-  for (std::size_t t = 0; t < numbers.size(); ++t) {
+  for (std::size_t t = 0; t < engine.tables(); ++t) {
     const RowSlices& slices = engine.slices()[t];
-    add_source(slices.state_stride, slices.before, slices.input_combinations, std::move(numbers[t]));
+    add_source(slices.state_stride, slices.before, slices.input_combinations, number_choices(t));
   }
   // Rows may be equal in the pairs that a file lists, and different in those that `allow` forbids.
   if (engine.allow() != nullptr) add_pairs(*engine.allow());
@@ -214,7 +208,7 @@ double Tiles::fraction_different(const Numbers& content, ThreadTeam* team) const
 
 std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, std::size_t leading) {
   if (!are_possible(engine) || leading == 0) return std::nullopt;
-  Tiles tiles(engine, hull, leading, nullptr);
+  Tiles tiles(engine, hull, leading);
   tiles.number_tables(nullptr);
   return tiles;
 }
@@ -229,7 +223,7 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
   // Units first: if as many are equal, fewer are looked up.
   for (const std::size_t leading : {engine.outer(), engine.across()}) {
     if (leading == 0 || (best && leading == engine.outer())) continue;
-    Tiles tiles(engine, hull, leading, team);
+    Tiles tiles(engine, hull, leading);
     if (tiles.local_tiles().end - tiles.local_tiles().begin < kFewRows) continue;
     if (local.begin % tiles.rows() != 0 || local.end % tiles.rows() != 0) continue;
     const double fraction = tiles.fraction_different(content, team);
@@ -242,19 +236,32 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
 }
 
 Numbers number_rows(const CellSet& set, const RowShare* share, ThreadTeam* team) {
-  Interner interner(set.rows());
-  ZeroedArray<std::int64_t> first(static_cast<std::size_t>(set.rows()));  // [number] a row that has it
+  constexpr std::int64_t kRows = 1 << 16, kGrain = 256;
+  Interner interner;
+  std::vector<std::int64_t> first;  // [number] the row that has come first
+  std::vector<std::uint64_t> hashes;
   Numbers result(static_cast<std::size_t>(set.rows()), 0);
+  const auto number_row = [&](std::int64_t r, std::uint64_t hash) {
+    std::uint32_t number = interner.find(
+        hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
+    if (number == Interner::kNone) {
+      number = interner.add(hash);
+      first.push_back(r);
+    }
+    result[static_cast<std::size_t>(r)] = number;
+  };
   for (const RowShare::Range run : held_rows(share, set.rows())) {
-    for_each(team, run.end - run.begin, 256, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t r = run.begin + range.begin; r < run.begin + range.end; ++r) {
-        std::uint64_t hash = 0;
-        for (const Word word : set.row(r)) hash = mixed_hash(hash, word);
-        result[static_cast<std::size_t>(r)] = interner.enter(
-            hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); },
-            [&](std::uint32_t number) { first[number] = r; });
-      }
-    });
+    for (std::int64_t begin = run.begin; begin < run.end; begin += kRows) {
+      hashes.assign(static_cast<std::size_t>(std::min(kRows, run.end - begin)), 0);
+      for_each(team, std::ssize(hashes), kGrain, [&](ThreadTeam::Range range, int) {
+        for (std::int64_t k = range.begin; k < range.end; ++k) {
+          std::uint64_t& hash = hashes[static_cast<std::size_t>(k)];
+          for (const Word word : set.row(begin + k)) hash = mixed_hash(hash, word);
+        }
+      });
+      for (std::size_t k = 0; k < hashes.size(); ++k)
+        number_row(begin + static_cast<std::int64_t>(k), hashes[k]);
+    }
   }
   return result;
 }

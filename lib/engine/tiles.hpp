@@ -78,7 +78,7 @@ class Tiles {
                                 ThreadTeam* team = nullptr) const;
 
  private:
-  Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading, ThreadTeam* team);
+  Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading);
 
   /// A table of posts, or of pairs.
   struct Source {

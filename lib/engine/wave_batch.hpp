@@ -97,7 +97,7 @@ class WaveBatch {
 
  private:
   /// Fewer units are chosen from, with the memo or without, and fewer rows written, sooner than handed out.
-  static constexpr std::int64_t kFewAsked = 8;
+  static constexpr std::int64_t kFewAsked = 16;
   static constexpr std::int64_t kFewUnits = 64;
   static constexpr std::int64_t kFewRows = 16;
   /// Fewer lanes of a row are computed sooner than handed out.
@@ -121,6 +121,12 @@ class WaveBatch {
                    [&](ThreadTeam::Range range, int w) {
                      for (std::int64_t k = range.begin; k < range.end; ++k) work(k, worker(w));
                    });
+  }
+
+  /// share() for rows to be written. Rows that are interned are written by one thread.
+  template <class Write>
+  void share_writing(std::int64_t count, const Write& write) {
+    share(count, levels_.is_interned() ? count + 1 : kFewRows, write);
   }
 
   /// Adds what is pending of a unit to what the worker has chosen.
@@ -260,7 +266,7 @@ class WaveBatch {
       ends_.push_back((ends_.empty() ? 0 : ends_.back()) + std::ssize(worker.changes));
     const std::int64_t count = ends_.back();
     counts_.changed += count;
-    share(count, kFewRows, [&](std::int64_t k, Worker& by) {
+    share_writing(count, [&](std::int64_t k, Worker& by) {
       const auto owner = static_cast<std::size_t>(std::ranges::upper_bound(ends_, k) - ends_.begin());
       const Worker& from = workers_[owner];
       commit(from, from.changes[static_cast<std::size_t>(k - ends_[owner] + std::ssize(from.changes))], by);
@@ -289,8 +295,8 @@ class WaveBatch {
   /// Copies rows on which the work was equal, and numbers the contents of tiles that have changed.
   void copy() {
     const std::int64_t copies = std::ssize(copies_);
-    share(copies, kFewRows,
-          [&](std::int64_t k, Worker& by) { copy(copies_[static_cast<std::size_t>(k)], by); });
+    share_writing(copies,
+                  [&](std::int64_t k, Worker& by) { copy(copies_[static_cast<std::size_t>(k)], by); });
     if (!memo_.is_on() || memo_.rows() == 1) return;
     share(copies + std::ssize(tasks_), kFewRows, [&](std::int64_t k, Worker& by) {
       if (k < copies) return renumber(copies_[static_cast<std::size_t>(k)].to, by);

@@ -34,8 +34,8 @@ struct WaveWorker {
   /// A row that has changed.
   struct Change {
     std::int64_t row;
-    std::size_t offset;   ///< in the worker's storage
-    std::uint64_t ready;  ///< LevelRows::make_ready()
+    std::size_t offset;  ///< in the worker's storage
+    typename LevelRows<Level>::Ready ready;
   };
 
   WaveWorker(int w, const PostReader<Level>& first, const DirtyRows& dirty_rows)

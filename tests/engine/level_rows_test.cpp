@@ -160,36 +160,9 @@ TEST(LevelRows, PutByThreadsAreThoseThatOnePuts) {
       ByteRows levels(kRows, shape, is_interned);
       ThreadTeam team(threads);
       put_rows(levels, team, fill);
-      const auto contents = [](const ByteRows& rows) {
-        return std::set(rows.slots().begin(), rows.slots().end()).size();
-      };
-      EXPECT_EQ(contents(levels), contents(expected));
+      EXPECT_EQ(levels.slots(), expected.slots());
       for (std::int64_t r = 0; r < kRows; ++r)
         ASSERT_TRUE(std::equal(levels.row(r) - 2, levels.row(r) + 7, expected.row(r) - 2)) << r;
-    }
-  }
-}
-
-TEST(LevelRows, ThreadsChangeInternedRowsAtOnce) {
-  // Few contents, so that slots are left and taken again all the time.
-  constexpr std::int64_t kRows = 64;
-  const RowShape shape{{{3, 1, {2, 4}, {Outside::saturate, Outside::safe}}}};
-  ByteRows levels(kRows, shape, true);
-  ThreadTeam team(4);
-  for (std::int64_t round = 0; round < 200; ++round) {
-    const auto value = [&](std::int64_t r) { return static_cast<std::uint8_t>(r * round % 5 + round % 3); };
-    team.for_each(kRows / 2, 1, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t r = range.begin; r < range.end; ++r)
-        levels.change_row(r, [&](std::uint8_t* cells) { std::fill_n(cells, 3, value(r)); });
-    });
-    team.for_each(kRows / 2, 1, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t r = range.begin; r < range.end; ++r)
-        static_cast<void>(levels.copy_row(r, kRows - 1 - r));
-    });
-    for (std::int64_t r = 0; r < kRows; ++r) {
-      ASSERT_EQ(levels.row(r)[1], value(std::min(r, kRows - 1 - r)));
-      ASSERT_EQ(levels.row(r), levels.row(kRows - 1 - r));
-      ASSERT_EQ(levels.row(r) == levels.row(0), levels.row(r)[1] == levels.row(0)[1]);
     }
   }
 }

@@ -66,7 +66,7 @@ void ExpectedLevels<Level>::find_rows(std::size_t number, const std::vector<Leve
       std::ranges::transform(expected.successors(), sources.begin(),
                              [&](std::size_t mode) { return risks[mode].row(row); });
       expected.find<Level>(sources, n, next);
-      const std::uint64_t ready = levels.make_ready(lanes.data());
+      const auto ready = levels.make_ready(lanes.data());
       if (std::equal(next, next + n, levels.row(row))) continue;
       levels.put_ready(row, lanes.data(), ready);
       changed_[number][r] = 1;
