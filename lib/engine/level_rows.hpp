@@ -252,8 +252,7 @@ class LevelRows {
   /// The slot with these cells, or kNone.
   [[nodiscard]] std::uint32_t find(std::uint64_t hash, const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
-    return interner_.find(hash,
-                          [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, bytes) == 0; });
+    return interner_.find(hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, bytes) == 0; });
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);

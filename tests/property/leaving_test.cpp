@@ -100,18 +100,33 @@ TEST(Leaving, IsWhatTheDefinitionSays) {
   }));
 }
 
-TEST(Leaving, IsByAdmissibleInputsAlone) {
+/// How many of these cells leave. @param states and what else differs, as JSON
+std::int64_t leaving_of(const std::string& states, const std::string& equations, const std::string& allow) {
   ThreadTeam team(2);
-  const FastAnalysis fast(read_spec(R"({"coordreq": 1, "name": "line",
-    "states": [{"name": "x", "lower": 0, "upper": 9, "step": 1, "outside": {"below": "saturate", "above": "safe"}}],
+  const std::string problem = R"({"coordreq": 1, "name": "leaving", "states": )" + states + R"(,
     "inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [0, 1]}],
     "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
-    "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + 2 * u"}}, "safe": "true",
-    "controller": {"allow": "x >= 7 or u <= 0"}, "abstraction": {"cells": "half_open"}})",
-                                    "line"),
-                          team);
-  EXPECT_EQ(fast.layers[0].sizes.back(), 10);
-  EXPECT_EQ(fast.layers[0].leaving.value().cells, 3);
+    "dynamics": {"time": "discrete", "period": 1, "equations": )" +
+                              equations + R"(}, "safe": "true",
+    "controller": {"allow": ")" +
+                              allow + R"("}, "abstraction": {"cells": "half_open"}})";
+  return FastAnalysis(read_spec(problem, "test"), team).layers[0].leaving.value().cells;
+}
+
+TEST(Leaving, IsByAdmissibleInputsAlone) {
+  EXPECT_EQ(leaving_of(R"([{"name": "x", "lower": 0, "upper": 9, "step": 1,
+                            "outside": {"below": "saturate", "above": "safe"}}])",
+                       R"({"x": "x + 2 * u"})", "x >= 7 or u <= 0"),
+            3);
+}
+
+TEST(Leaving, IsThroughCellsThatLeaveAlone) {
+  // From 1 they leave, and from 3 to 1; from 2 and 4 none does.
+  EXPECT_EQ(leaving_of(R"([{"name": "x", "lower": 0, "upper": 4, "step": 1,
+                            "outside": {"below": "safe", "above": "saturate"}},
+                           {"name": "y", "lower": 0, "upper": 4, "step": 1, "outside": "saturate"}])",
+                       R"({"x": "x + 2 * u", "y": "y + v"})", "x >= 0.5"),
+            10);
 }
 
 TEST(Leaving, OfLikeAgentsToo) {

@@ -49,7 +49,7 @@ TEST(EnclosureSample, HasNothingOfExactPosts) {
 }
 
 TEST(EnclosureSample, KnowsAStateThatIsAffineOnlyWithoutAnInput) {
-  const ProblemSpec spec = sampled_spec(R"_({"x": "u*sin(x)", "y": "v", "z": "1"})_");
+  const ProblemSpec spec = sampled_spec(R"_({"x": "if(u > 0, sin(x), 1)", "y": "v", "z": "1"})_");
   const std::vector<EnclosedGroup> groups = groups_of(spec);
   ASSERT_EQ(groups.size(), 1);
   EXPECT_EQ(EnclosureSample(spec, groups[0]).choices(), 9 * 2);
