@@ -264,8 +264,12 @@ void ValidatedFlow::Solver::follow_extremes(bool last) {
   }
 }
 
+/// In long steps a solution may be known far less well than where it is: its middle then stands for it.
 void ValidatedFlow::Solver::note_attained(const FollowedSolution& solution) {
-  const std::vector<Interval>& value = solution.state.value;
+  std::vector<Interval> value = solution.state.value;
+  for (Interval& v : value) {
+    if (takes_long_steps_) v = Interval(midpoint(v));
+  }
   if (attained_.empty()) attained_ = value;
   for (std::size_t i = 0; i < n_; ++i) attained_[i] = hull(attained_[i], value[i]);
 }
