@@ -23,8 +23,8 @@ namespace coordreq {
 /// another on their way (SolutionSpread), so that few subboxes are enclosed in vain.
 ///
 /// Parts of a line whose end is a summand take long steps first (ValidatedFlow). Where an end is not close to
-/// what is reached then, the box is divided in short steps, too: no end is farther out than in short steps
-/// alone but by what makes no difference to BoxDivision.
+/// what is reached then, the box is divided in short steps, too: few ends are farther out than in short steps
+/// alone, and those by a part of a step of the grid.
 ///
 /// Over-approximates always. Not thread-safe: use a copy a thread.
 class SplitFlow {
