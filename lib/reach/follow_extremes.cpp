@@ -266,12 +266,13 @@ void ValidatedFlow::Solver::follow_extremes(bool last) {
 
 /// In long steps a solution may be known far less well than where it is: its middle then stands for it.
 void ValidatedFlow::Solver::note_attained(const FollowedSolution& solution) {
-  std::vector<Interval> value = solution.state.value;
-  for (Interval& v : value) {
-    if (takes_long_steps_) v = Interval(midpoint(v));
+  const std::vector<Interval>& value = solution.state.value;
+  const bool is_first = attained_.empty();
+  attained_.resize(n_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const Interval at = takes_long_steps_ ? Interval(midpoint(value[i])) : value[i];
+    attained_[i] = is_first ? at : hull(attained_[i], at);
   }
-  if (attained_.empty()) attained_ = value;
-  for (std::size_t i = 0; i < n_; ++i) attained_[i] = hull(attained_[i], value[i]);
 }
 
 /// Moves one end of `next_` to what the solution that was followed says.

@@ -42,13 +42,15 @@ const FlowEnclosure& SplitFlow::flow(std::span<const Interval> slots) {
   box_.clear();
   for (const std::uint32_t slot : state_slots_) box_.push_back(slots[slot]);
   const bool by_faces = can_use_faces();
-  FlowEnclosure other = result_;
-  if (by_faces ? divide_faces() : divide_all()) use_hull(by_faces);
+  const auto divide = [&] { return by_faces ? divide_faces() : divide_all(); };
+  FlowEnclosure first = result_;
+  if (divide()) use_hull(by_faces);
   if (division_.may_gain_by_short_steps()) {
+    // Anew from the whole, so that ends are as without long steps.
     takes_long_steps_ = false;
-    std::swap(result_, other);
-    const bool found = by_faces ? divide_faces() : divide_all();
-    std::swap(result_, other);
+    std::swap(result_, first);
+    const bool found = divide();
+    std::swap(result_, first);
     if (found) use_hull(by_faces);
     takes_long_steps_ = true;
   }

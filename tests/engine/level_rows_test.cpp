@@ -134,6 +134,29 @@ TEST(LevelRows, InternedRowsAreHeldOnceAndReadAsOthersAre) {
   }));
 }
 
+TEST(LevelRows, ThatWereMadeReadyArePutAsTheyWereWhateverWasPutSince) {
+  for (const bool is_taken_again : {false, true}) {
+    ByteRows levels(4, RowShape{{{1, 1, {0, 0}, {Outside::safe, Outside::safe}}}}, true);
+    const auto put = [&](std::int64_t r, std::uint8_t level) {
+      levels.change_row(r, [level](std::uint8_t* cells) { *cells = level; });
+    };
+    put(0, 5);
+    put(1, 6);
+    const std::uint32_t slot = levels.slots()[0];
+    std::vector<std::uint8_t> five(static_cast<std::size_t>(levels.stride()), 5);
+    const ByteRows::Ready ready = levels.make_ready(five.data());
+    EXPECT_EQ(ready.slot, slot);
+    put(0, 7);  // the slot is free
+    if (is_taken_again) put(1, 8);
+    EXPECT_EQ(levels.slots()[1] == slot, is_taken_again);
+    levels.put_ready(2, five.data(), ready);
+    EXPECT_EQ(*levels.row(0), 7);
+    EXPECT_EQ(*levels.row(1), is_taken_again ? 8 : 6);
+    put(1, 9);
+    EXPECT_EQ(*levels.row(2), 5);
+  }
+}
+
 TEST(LevelRows, MarkCellsThatLeaveThroughUnsafeEnds) {
   const RowShape shape{{{3, 7, {1, 2}, {Outside::unsafe, Outside::safe}},
                         {2, 1, {2, 3}, {Outside::saturate, Outside::unsafe}}}};
