@@ -48,12 +48,12 @@ std::vector<const CellSet*> safe_sets(const AnalysisContext& context) {
 }
 
 /// Agents that can be exchanged.
-std::vector<AbstractAgent> find_agents_alike(const AnalysisContext& context) {
+std::vector<AbstractAgent> find_agents_alike(const AnalysisContext& context, ThreadTeam& team) {
   std::vector<std::vector<std::int32_t>> inputs;
   for (const InputClass& input_class : agent_classes(context.spec, context.abstraction->inputs))
     inputs.push_back(input_class.inputs());
   const std::vector<AbstractAgent> all = abstract_agents(*context.abstraction, inputs);
-  return find_like_agents(*context.abstraction, all, safe_sets(context));
+  return find_like_agents(*context.abstraction, all, safe_sets(context), &team);
 }
 
 /// Adds the cells of G, of a goal that ends the task, in some rows where S is known.
@@ -130,7 +130,7 @@ void set_up_context(AnalysisContext& context, ThreadTeam& team) {
   context.engine->set_pairs(context.pairs);
   context.tiles = Tiles::find(*context.engine, *context.hull, context.safe, &team);
   if (context.ranks == nullptr && context.pairs.admissible() == nullptr)
-    context.like_agents = find_agents_alike(context);
+    context.like_agents = find_agents_alike(context, team);
   context.safe_cells = context.count(context.safe, &team);
   if (context.tiles && context.terminal)
     context.tiles_with_terminal = context.tiles->refined(

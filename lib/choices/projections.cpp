@@ -361,7 +361,11 @@ void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equa
   const Tiles* const tiles = equal_.tiles;
   if (tiles != nullptr)
     classes_ = tiles->refined(*equal.numbers, number_rows(invariant, share, &team), &team);
-  const auto has = [&](std::int64_t row) { return has_cells(invariant, row); };
+  for_each_local_row(team, share, invariant.rows(), 1024, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t row = range.begin; row < range.end; ++row)
+      if (has_cells(invariant, row)) number_[static_cast<std::size_t>(row)] = kFound;
+  });
+  const auto has = [&](std::int64_t row) { return number_[static_cast<std::size_t>(row)] != kNothing; };
   for_each_with_first(tiles, classes_, run, has, [&](std::int64_t row, std::int64_t first) {
     if (first == row) found_.push_back({.row = row});
     number_[static_cast<std::size_t>(row)] =

@@ -119,6 +119,7 @@ class Projections {
 
  private:
   static constexpr std::uint32_t kNothing = 0;
+  static constexpr std::uint32_t kFound = 1;  ///< while rows are numbered: K has a cell in it
   template <class Level>
   class Builder;
   void find_all(const Controller& controller, ThreadTeam& team, const SilentRules* rules, bool keeps_masks);

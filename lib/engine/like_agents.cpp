@@ -128,7 +128,7 @@ std::vector<AbstractAgent> abstract_agents(const Abstraction& abstraction,
 
 std::vector<AbstractAgent> find_like_agents(const Abstraction& abstraction,
                                             std::span<const AbstractAgent> agents,
-                                            std::span<const CellSet* const> sets) {
+                                            std::span<const CellSet* const> sets, ThreadTeam* team) {
   const auto is_across = [&](const AbstractAgent& agent) {
     return !agent.dimensions.empty() && std::ranges::all_of(agent.dimensions, [&](std::size_t d) {
       return d < abstraction.grid.across();
@@ -146,7 +146,7 @@ std::vector<AbstractAgent> find_like_agents(const Abstraction& abstraction,
       std::optional<AbstractAgent> agent = agent_like(abstraction, agents[a], agents[b]);
       if (!agent) continue;
       const RowSymmetry symmetry(abstraction.grid, {agents[a].dimensions, agent->dimensions});
-      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return symmetry.keeps(*set); })) continue;
+      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return symmetry.keeps(*set, team); })) continue;
       like.push_back(*std::move(agent));
       is_known[b] = 1;
     }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "reach/abstraction.hpp"
 
@@ -44,8 +45,10 @@ template <class Number>
 /// The largest set of agents any two of which can be exchanged, in each of the cell sets too: two to
 /// RowSymmetry::kMostAgents of them, or none. All their dimensions are across rows, and match one by one.
 /// @param sets known in all rows
+/// @param team may be null
 [[nodiscard]] std::vector<AbstractAgent> find_like_agents(const Abstraction& abstraction,
                                                           std::span<const AbstractAgent> agents,
-                                                          std::span<const CellSet* const> sets);
+                                                          std::span<const CellSet* const> sets,
+                                                          ThreadTeam* team = nullptr);
 
 }  // namespace coordreq

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "model/uniform_grid.hpp"
 
@@ -49,11 +51,15 @@ class RowSymmetry {
   }
 
   /// Whether a set has the same cells in all permuted rows.
-  [[nodiscard]] bool keeps(const CellSet& set) const {
-    for (std::int64_t row = 0; row < set.rows(); ++row) {
-      if (!std::ranges::equal(set.row(row), set.row(canonical_of(row)))) return false;
-    }
-    return true;
+  /// @param team may be null
+  [[nodiscard]] bool keeps(const CellSet& set, ThreadTeam* team) const {
+    std::atomic<bool> is_kept = true;
+    for_each(team, set.rows(), 1024, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t row = range.begin; row < range.end && is_kept; ++row) {
+        if (!std::ranges::equal(set.row(row), set.row(canonical_of(row)))) is_kept = false;
+      }
+    });
+    return is_kept;
   }
 
   /// Calls `visit(row)` for all its permuted rows but the row itself.
