@@ -146,7 +146,8 @@ std::vector<AbstractAgent> find_like_agents(const Abstraction& abstraction,
       std::optional<AbstractAgent> agent = agent_like(abstraction, agents[a], agents[b]);
       if (!agent) continue;
       const RowSymmetry symmetry(abstraction.grid, {agents[a].dimensions, agent->dimensions});
-      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return symmetry.keeps(*set, team); })) continue;
+      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return symmetry.keeps(*set, team); }))
+        continue;
       like.push_back(*std::move(agent));
       is_known[b] = 1;
     }
