@@ -330,12 +330,14 @@ void Projections::find_all(const Controller& controller, ThreadTeam& team, const
            position.advance(engine.grid())) {
         const std::uint32_t number = number_[static_cast<std::size_t>(position.row)];
         if (number == kNothing || of(position.row).row != position.row) continue;
-        Found& found = found_[number - 1];
-        found = builder.project(position);
+        const Found projected = builder.project(position);
         Store& store = stores_[static_cast<std::size_t>(worker)];
-        found.packed = store.keep(found.packed);
-        found.masks = store.keep(found.masks);
-        found.forbidden = store.keep(found.forbidden);
+        // But not the row: other threads read it.
+        Found& found = found_[number - 1];
+        found.is_full = projected.is_full;
+        found.packed = store.keep(projected.packed);
+        found.masks = store.keep(projected.masks);
+        found.forbidden = store.keep(projected.forbidden);
       }
     });
   });

@@ -1,6 +1,7 @@
 #include "engine/box_reader.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/requires.hpp"
 #include "engine/limits.hpp"
@@ -202,7 +203,7 @@ void BoxReader<Level>::take_window(std::size_t k, std::size_t lanes, Level* out)
                       lanes + static_cast<std::size_t>((width - done - step) * stride));
     done += step;
   }
-  if (out != wide_.data()) std::copy_n(wide_.data(), lanes, out);
+  if (out != wide_.data()) std::memmove(out, wide_.data(), lanes * sizeof(Level));  // they may overlap
 }
 
 /// All cells go to the same range, which may go on at the other end of a ring.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -50,7 +51,12 @@ class TileMemo {
     lists_->contents.clear();
     contents_.assign(static_cast<std::size_t>(equal_.tiles->size()), 0);
     std::vector<RowShare::Range> runs = held_rows(levels_.share(), levels_.rows());
-    for (RowShare::Range& run : runs) run = {run.begin / rows(), (run.end + rows() - 1) / rows()};
+    // Two runs may hold rows of one tile, which one thread numbers.
+    std::int64_t end = 0;
+    for (RowShare::Range& run : runs) {
+      run = {std::max(run.begin / rows(), end), (run.end + rows() - 1) / rows()};
+      end = run.end;
+    }
     for_each_row_of(team, runs, kGrain, [&](ThreadTeam::Range range, int) {
       Tiles::Numbers key;
       for (std::int64_t tile = range.begin; tile < range.end; ++tile) update(tile, key);

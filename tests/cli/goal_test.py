@@ -236,6 +236,15 @@ class Cases(Case):
         self.assertEqual(result.returncode, 1)
         self.assertGreater(json.loads(result.stdout)["arrival"]["lost"], 0)
 
+    def test_a_goal_behind_a_side_without_a_step(self):
+        """No cell of the grid is in the goal, and `max_delay` 0 asks nothing of the first step: a file that can be read."""
+        problem = spec([state("s", 2, discrete=True, outside={"below": "safe", "above": "goal"})], {"u": [0, 1], "v": [0, 1]},
+                       {"s": "if(u == v, s + 1, s - 1)"}, "s > 2")  # fmt: skip
+        self.results({**problem, "coordination": {"max_delay": 0}})
+        self.assertEqual(self.run_program("verify", "r.h5", "--strict").returncode, 0)
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertEqual((file["approach_fixed_point_index"][0], list(file["approach_layer_size"][0])), (-1, [3]))
+
     def test_delays_that_were_cut_off_are_lower_bounds(self):
         """In the goal every delay is unbounded, but `max_delay` ends the approach before that is known."""
         problem = spec(

@@ -118,9 +118,8 @@ LevelMap find_approach_levels(const ApproachSets& sets, const Projections& proje
   LevelMap start;
   WaveWatch inner_watch = watch;
   if (inner_watch.resumed == nullptr) {
-    // Levels above the limit count as kTop, so that nothing is required of W itself.
-    const bool is_w_all = sets.goal == nullptr && max_delay == 0;
-    start = first_levels(sets, is_w_all ? *sets.outside_goal : nearing, layers);
+    // Levels above the limit count as kTop: without a step to come nearer in, all of W does.
+    start = first_levels(sets, max_delay == 0 ? *sets.outside_goal : nearing, layers);
     inner_watch.resumed = &start;
   }
   return find_levels(sets.progress->engine(), sets.progress->hull(), problem, inner_watch, team, counts);

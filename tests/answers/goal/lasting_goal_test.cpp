@@ -193,6 +193,22 @@ TEST(LastingGoals, AreFulfilledBeyondAGoalSideAlone) {
   EXPECT_EQ(back.longest_gap, 2);
 }
 
+TEST(LastingGoals, AndOthersHaveAllOfWWhereNoStepCounts) {
+  for (const char* then : {"safe", "over", "stay", "return"}) {
+    for (const char* goal : {"false", "p == 2"}) {
+      const PlainGoal none = found({.last = 2,
+                                    .next = "p + if(u == v, 1, -1)",
+                                    .goal = goal,
+                                    .then = then,
+                                    .more = {{"coordination", {{"max_delay", 0}}}},
+                                    .outside = {{"below", "safe"}, {"above", "goal"}}});
+      EXPECT_EQ(none.partitions[0].delay, Steps({0, 0, 0})) << then;
+      EXPECT_EQ(none.partitions[0].sizes, Sizes({3})) << then;
+      EXPECT_EQ(none.partitions[0].fixed_point_index, -1) << then;
+    }
+  }
+}
+
 TEST(LastingGoals, OfAGivenControllerAreWhatItDoesInAnyCase) {
   Game game = line("return", {-1, 0, 1});
   game.more = {{"controller",
