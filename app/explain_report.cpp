@@ -86,8 +86,7 @@ Json silence_json(const DelayExplanation::Silence& found, std::size_t partition,
   if (!found.path) return json;
   path = path_json(*found.path, RequirementKind::min_silence, spec);
   // The file does not say where it goes from there.
-  if (path["end_sample"].is_object() && path["end_sample"]["silence_status"] == "not_in_silence_set" &&
-      spec.silence->has_then())
+  if (path["end_sample"].is_object() && path["end_sample"]["silence_status"] == "not_in_silence_set")
     path["end"] = "outside_silence_set";
   return json;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -198,6 +199,7 @@ std::string left_text(const Json& simulation) {
 
 /// "0.6, in the units of \"safe\"".
 std::string margin_text(double margin, const ProblemSpec& spec) {
+  if (std::isinf(margin)) return "none: \"safe\" has no limit";
   const bool is_by_centre = margin < 0 && spec.abstraction.safe == Membership::center;
   return fmt::format(
       "{:.6g}, in the units of \"safe\"{}", margin,

@@ -25,9 +25,11 @@ std::optional<Rational> time_of(const std::string& text, const std::string& unit
 std::int64_t steps_or_time(const std::string& text, const DynamicsSpec& dynamics, const std::string& option,
                            const StepBounds& bounds) {
   constexpr std::int64_t kMost = INT32_MAX - 1;
+  const std::string steps_expected =
+      bounds.least == 0 ? "a number of steps" : fmt::format("a number of steps from {} on", bounds.least);
   const std::string expected =
-      dynamics.unit.empty() ? "a number of steps"
-                            : fmt::format("a number of steps, or a time, e.g. 2{}{}",
+      dynamics.unit.empty() ? steps_expected
+                            : fmt::format("{}, or a time, e.g. 2{}{}", steps_expected,
                                           is_time_unit(dynamics.unit) ? "" : " ", printable(dynamics.unit));
   const std::string amount(trimmed(text));
   const std::optional<Rational> time = time_of(amount, dynamics.unit);

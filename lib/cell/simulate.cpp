@@ -238,9 +238,10 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   if (loop.start) {
     check_start(results, *loop.start, problem.start_steps(), options.kind);
   } else if (!has_start(spec, problem.start_steps())) {
-    throw UsageError(spec.memory.empty()
-                         ? "the invariance set is empty: there is no state to start from"
-                         : "the invariance set has no state with an empty memory to start from",
+    const bool is_rule = options.kind != nullptr && options.kind->option.no_start != nullptr;
+    throw UsageError(std::string(is_rule ? "the silence set " : "the invariance set ") +
+                         (spec.memory.empty() ? "is empty: there is no state to start from"
+                                              : "has no state with an empty memory to start from"),
                      "--start");
   }
   // Tubes are not stored.

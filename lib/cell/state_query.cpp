@@ -29,11 +29,15 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
   for (const AnswerPolicy& policy : controller_.policies()) {
     if (!policy.delay.empty()) read_values(policy.delay, block, answer);
     if (!policy.trigger.empty()) read_values(policy.trigger, block, answer);
+    // In an aim that does not last the policy leaves all that coordination does (contract, section 5: P = C).
+    const bool is_at_aim = !policy.aim.path.empty() && !policy.aim.lasts &&
+                           results_.values(results_.field(policy.aim.path), std::nullopt, block).front() == 0;
     const std::size_t partitions = policy.is_by_agent ? 1 : results_.partitions().size();
     for (std::size_t p = 0; p < partitions; ++p) {
       const std::string& left = policy.is_on_request() ? policy.countdown() : policy.delay;
       const std::int32_t countdown = left.empty() ? 0 : answer.value(left, p);
-      answer.actions[policy.name].push_back(controller_.actions(policy, p, cell, countdown));
+      answer.actions[policy.name].push_back(is_at_aim ? controller_.actions(p, cell)
+                                                      : controller_.actions(policy, p, cell, countdown));
     }
   }
   for (const Field* const field : query_fields_) read_values(field->path, block, answer);

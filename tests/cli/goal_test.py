@@ -227,6 +227,10 @@ class Cases(Case):
         approach = answer["partitions"][0]["approach"]
         self.assertEqual(approach["delay_status"], "unbounded")
         self.assertEqual([one["actions"] for one in approach["classes"]], [[1], [0, 1]])
+        arrived = json.loads(self.run_program("query", "r.h5", "--at", "p=0,q=3", "--json").stdout)["partitions"][0]
+        everything = [one["actions"] for one in arrived["classes"]]
+        self.assertEqual([one["actions"] for one in arrived["approach"]["classes"]], everything)
+        self.assertTrue(all(everything))
 
     def test_arriving_later_is_worse(self):
         self.results(spec(*TWO, WALK, "p == 0 or q == 0"))

@@ -171,9 +171,9 @@ class Cases(Case):
         for arguments, message in (
             ((), "missing --delay N, the silence to be tolerated, or one of --silence, --blind, --approach, --arrival and --risk"),
             (("--delay", "2"), "missing --over STATE, the state over which to search"),
-            (("--delay", "2x", "--over", "p1"), "expected a number of steps, or a time, e.g. 2s, found '2x' (--delay)"),
-            (("--delay", "0", "--over", "p1"), "expected a number of steps, or a time, e.g. 2s, found '0' (--delay)"),
-            (("--delay", "1.5", "--over", "p1"), "expected a number of steps, or a time, e.g. 2s, found '1.5' (--delay)"),
+            (("--delay", "2x", "--over", "p1"), "expected a number of steps from 1 on, or a time, e.g. 2s, found '2x' (--delay)"),
+            (("--delay", "0", "--over", "p1"), "expected a number of steps from 1 on, or a time, e.g. 2s, found '0' (--delay)"),
+            (("--delay", "1.5", "--over", "p1"), "expected a number of steps from 1 on, or a time, e.g. 2s, found '1.5' (--delay)"),
             (("--delay", "2", "--over", "p1,p1"), "'p1' is given twice (--over)"),
             (("--delay", "2", "--over", "q"), "'q' is no state, expected 'p1', 'v1', 'v2' or 'p2' (--over)"),
             (("--delay", "2", "--over", "p1,v1,p2"), "expected one state or two, found 3 (--over)"),

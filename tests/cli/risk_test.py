@@ -53,6 +53,14 @@ class Cases(Case):
         self.assertEqual(attributes["horizon"], 5)
         self.assertAlmostEqual(attributes["rate"], 0.081, places=6)
 
+    def test_of_equal_risks_the_cell_that_is_lost_first(self):
+        spec = brink(safe="d < 3", network={"loss": 1}, requirements=[{"name": "r", "where": "true", "max_risk": 0.5}])
+        spec["states"][0]["outside"] = "unsafe"
+        spec["dynamics"]["equations"] = {"d": "if(u1 == u2, d, 3)"}
+        (found,) = self.results(spec, code=1)["requirements"]
+        self.assertEqual(found["counterexample"]["state"], {"d": 3})
+        self.assertEqual(self.run_program("verify", "results.h5", "--strict").returncode, 0)
+
     def test_json(self):
         own = self.results(brink())["risk"]
         self.assertEqual((own["horizon"], [mode["name"] for mode in own["modes"]]), (5, ["up", "down"]))

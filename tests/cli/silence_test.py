@@ -416,6 +416,17 @@ int main(void) {
         self.assertEqual((found["least_silence"], found["least_silence_status"]), (None, "not_in_silence_set"))
         self.assertEqual([step["action"] for step in found["counterexample"]["steps"]], ["afterwards"] * 2)
         self.assertEqual((found["counterexample"]["proven"], found["counterexample"]["seen"]), (2, 2))
+        # Of equal cells the one that is lost first, not one that coordination keeps.
+        walk = chain(safe="true", silence={"actions": {"a": "u == 0", "b": "true"}, "then": {"a": "u == 1", "b": "true"}})
+        walk["states"][0]["outside"] = {"below": "saturate", "above": "unsafe"}
+        walk["dynamics"]["equations"] = {"x": "if(x == 0, max(u, 0), x + 1)"}
+        found = asked(walk, "true", min_silence=1)
+        self.assertEqual((found["failing"], found["counterexample"]["state"]), (10, {"x": 9}))
+        walk["silence"].pop("then")
+        found = asked(walk, "x >= 1", min_silence=1)
+        self.assertEqual(found["least_silence_status"], "not_invariant")
+        text = self.run_program("analyze", "spec.json", "-o", "r.h5").stdout.decode()
+        self.assertIn("the worst at x = 9: it cannot be kept safe, even if all agents coordinate.", text)
 
     def test_explained(self):
         def explained(at):
@@ -573,6 +584,10 @@ int main(void) {
             *start, "--from", "x=5", "--silent",
         )  # fmt: skip
         self.assert_fails(2, "the start is not in the safe set (--from)", *start, "--from", "x=8", "--silent")
+        self.results(chain(silence={"then": {"a": "u == 1", "b": "true"}}))
+        self.assert_fails(
+            2, "the silence set is empty: there is no state to start from (--start)", *start, "--start", "random", "--silent"
+        )
         self.results(chain(goal="x == 0"))
         self.assert_fails(
             2,

@@ -387,7 +387,7 @@ $""",
         self.assert_refused("no number of steps, expected --steps N", *START)
         for text in ("0", "x", "-1", "2147483647"):
             self.assert_refused(
-                f"expected a number of steps, or a time, e.g. 2s, found '{text}' (--steps)",
+                f"expected a number of steps from 1 on, or a time, e.g. 2s, found '{text}' (--steps)",
                 *START,
                 f"--steps={text}",
             )

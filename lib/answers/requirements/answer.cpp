@@ -37,9 +37,11 @@ void put_risk(Json& json, const std::string& key, double risk) {
 }
 
 /// Adds a value of a requirement; INT32_MAX means silence without bound, or a goal that is never reached.
-void put_value(Json& json, const std::string& key, RequirementKind kind, std::int32_t value) {
+void put_value(Json& json, const std::string& key, RequirementKind kind, std::int32_t value,
+               const ProblemSpec& spec) {
   if (traits(kind).is_probability) return put_risk(json, key, double{std::bit_cast<float>(value)});
-  const bool is_no_end = kind == RequirementKind::min_silence && value == kOutsideInvariant;
+  const bool is_no_end = kind == RequirementKind::min_silence && value == kOutsideInvariant && spec.silence &&
+                         spec.silence->has_then();
   const bool is_never = kind == RequirementKind::max_arrival && value == kUnbounded;
   json[key] = delay_json(value);
   json[key + "_status"] = is_never    ? "goal_cannot_be_forced"
@@ -64,7 +66,7 @@ Json sample_json(const ResultPath& path, std::size_t sample, RequirementKind kin
   Json json;
   json["state"] = state_json(path, sample, spec);
   json["cell"] = path.cell[sample];
-  put_value(json, traits(kind).value, kind, path.delay[sample]);
+  put_value(json, traits(kind).value, kind, path.delay[sample], spec);
   json["collision_time"] = time == kUnbounded ? Json() : Json(time);
   return json;
 }
@@ -154,7 +156,7 @@ void describe_requirements(const ProblemSpec& spec, const FieldSource& source, J
     if (traits(kind).is_probability) {
       put_risk(json, traits(kind).worst(), requirement.risk);
     } else {
-      put_value(json, traits(kind).worst(), kind, requirement.least_delay);
+      put_value(json, traits(kind).worst(), kind, requirement.least_delay, spec);
     }
     json["counterexample_steps"] = requirement.path ? Json(requirement.path->steps()) : Json();
   }
@@ -233,7 +235,7 @@ Json requirement_json(const ResultRequirement& result, const RequirementSpec& re
   if (is_risk) {
     put_risk(json, traits(requirement.kind).worst(), result.risk);
   } else {
-    put_value(json, traits(requirement.kind).worst(), requirement.kind, result.least_delay);
+    put_value(json, traits(requirement.kind).worst(), requirement.kind, result.least_delay, spec);
   }
   json["reaches_outside"] = side_json(result.reached_side, spec);
   json["counterexample"] = result.holds ? Json() : counterexample_json(result, requirement.kind, spec);

@@ -91,7 +91,8 @@ CellVerdict judge_cells(const CellSet& region, const UniformGrid& grid, const Ce
     partial.least_rank = std::min(partial.least_rank, rank);
     if (!fails(requirement.kind, requirement.steps, value)) return;
     ++partial.verdict.failing;
-    const std::int64_t collision_time = requirement.collision_time->at(cell);
+    const std::int64_t level = requirement.collision_time->at(cell);
+    const std::int64_t collision_time = level == LevelMap::kTop ? std::int64_t{kUnbounded} : level;
     if (partial.verdict.worst &&
         std::tie(rank, collision_time) > std::tie(std::get<0>(partial.worst), std::get<1>(partial.worst)))
       return;
