@@ -60,6 +60,13 @@ class Cases(Case):
         (found,) = self.results(spec, code=1)["requirements"]
         self.assertEqual(found["counterexample"]["state"], {"d": 3})
         self.assertEqual(self.run_program("verify", "results.h5", "--strict").returncode, 0)
+        for path in ("least_delay", "0/delay"):
+            with h5py.File(self.folder / "results.h5", "r+") as file:
+                file[f"counterexample/{path}"][0] = 1
+            message = f"a delay where a risk is asked for (results.h5:/counterexample/{path})"
+            self.assert_fails(3, message, "verify", "results.h5")
+            with h5py.File(self.folder / "results.h5", "r+") as file:
+                file[f"counterexample/{path}"][0] = 0
 
     def test_json(self):
         own = self.results(brink())["risk"]

@@ -1,5 +1,6 @@
 #include "answers/requirements/result_requirement.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "answers/requirements/risk_limit.hpp"
@@ -86,14 +87,18 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
       source.fail("followed without a counterexample", counterexample_path("seen"));
     if (has_path != (ends[r] != 0))
       source.fail("an end without a counterexample, or the other way round", counterexample_path("end"));
-    if (spec.requirements[r].kind == RequirementKind::max_risk)
-      take_risk(spec.requirements[r], risks[r], source, requirement);
+    const bool is_risk = spec.requirements[r].kind == RequirementKind::max_risk;
+    if (is_risk && delays[r] != 0)
+      source.fail("a delay where a risk is asked for", counterexample_path("least_delay"));
+    if (is_risk) take_risk(spec.requirements[r], risks[r], source, requirement);
     if (spec.risk && !requirement.is_risk && risks[r] != 0)
       source.fail("a risk where none is asked for", counterexample_path("risk"));
     if (!has_path) continue;
     requirement.path = read_path(source, r);
-    if (requirement.is_risk)
-      requirement.path->delay.assign(requirement.path->samples(), requirement.least_delay);
+    std::vector<std::int32_t>& path_delays = requirement.path->delay;
+    if (is_risk && std::ranges::any_of(path_delays, [](std::int32_t delay) { return delay != 0; }))
+      source.fail("a delay where a risk is asked for", counterexample_path(r, "delay"));
+    if (is_risk) path_delays.assign(path_delays.size(), requirement.least_delay);
     requirement.path->end = static_cast<PathEnd>(ends[r] - 1);
     requirement.path->left_side = side_of_number(left[r]);
     requirement.path->seen = static_cast<std::int32_t>(seen[r]);
