@@ -68,8 +68,14 @@ void Options::read_values() {
   for (const Entry& entry : entries_) {
     if (entry.option->count() == 0) continue;
     const std::string name = "--" + entry.option->get_lnames().front();
-    if (entry.texts.empty()) entry.take(entry.text, name);
-    for (const std::string& text : entry.texts) entry.take(text, name);
+    const auto take = [&](const std::string& text) {
+      // The parser takes whatever follows an option that needs a value.
+      if (text.starts_with('-') && command_.get_option_no_throw(text) != nullptr)
+        throw UsageError(fmt::format("expected a value, found the option {}", echoed(text)), name);
+      entry.take(text, name);
+    };
+    if (entry.texts.empty()) take(entry.text);
+    for (const std::string& text : entry.texts) take(text);
   }
 }
 

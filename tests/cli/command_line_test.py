@@ -90,6 +90,9 @@ class Cases(Case):
 
     def test_option_without_its_value(self):
         self.assert_fails(2, "expected a value, found none (--threads)", "analyze", "spec.json", "--threads")
+        for line, option, found in (("-o --quiet", "--output", "--quiet"), ("--checkpoint --resume", "--checkpoint", "--resume"),
+                                    ("--set -o", "--set", "-o")):  # fmt: skip
+            self.assert_fails(2, f"expected a value, found the option '{found}' ({option})", "analyze", "spec.json", *line.split())
 
     def test_option_given_twice(self):
         self.assert_fails(
