@@ -26,12 +26,13 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
   const CellBlock block = one_cell(results_.grid(), cell);
   for (const char* const path : {paths::kSafe, paths::kInvariant, paths::kCollisionTime})
     read_values(path, block, answer);
+  for (const Field* const field : query_fields_) read_values(field->path, block, answer);
   for (const AnswerPolicy& policy : controller_.policies()) {
     if (!policy.delay.empty()) read_values(policy.delay, block, answer);
     if (!policy.trigger.empty()) read_values(policy.trigger, block, answer);
     // In an aim that does not last the policy leaves all that coordination does (contract, section 5: P = C).
-    const bool is_at_aim = !policy.aim.path.empty() && !policy.aim.lasts &&
-                           results_.values(results_.field(policy.aim.path), std::nullopt, block).front() == 0;
+    const bool is_at_aim =
+        !policy.aim.path.empty() && !policy.aim.lasts && answer.value(policy.aim.path) == 0;
     const std::size_t partitions = policy.is_by_agent ? 1 : results_.partitions().size();
     for (std::size_t p = 0; p < partitions; ++p) {
       const std::string& left = policy.is_on_request() ? policy.countdown() : policy.delay;
@@ -40,7 +41,6 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
                                                       : controller_.actions(policy, p, cell, countdown));
     }
   }
-  for (const Field* const field : query_fields_) read_values(field->path, block, answer);
   return answer;
 }
 

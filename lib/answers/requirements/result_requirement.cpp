@@ -95,10 +95,12 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
       source.fail("a risk where none is asked for", counterexample_path("risk"));
     if (!has_path) continue;
     requirement.path = read_path(source, r);
-    std::vector<std::int32_t>& path_delays = requirement.path->delay;
-    if (is_risk && std::ranges::any_of(path_delays, [](std::int32_t delay) { return delay != 0; }))
-      source.fail("a delay where a risk is asked for", counterexample_path(r, "delay"));
-    if (is_risk) path_delays.assign(path_delays.size(), requirement.least_delay);
+    if (is_risk) {
+      std::vector<std::int32_t>& path_delays = requirement.path->delay;
+      if (std::ranges::any_of(path_delays, [](std::int32_t delay) { return delay != 0; }))
+        source.fail("a delay where a risk is asked for", counterexample_path(r, "delay"));
+      std::ranges::fill(path_delays, requirement.least_delay);
+    }
     requirement.path->end = static_cast<PathEnd>(ends[r] - 1);
     requirement.path->left_side = side_of_number(left[r]);
     requirement.path->seen = static_cast<std::int32_t>(seen[r]);
