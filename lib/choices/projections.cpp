@@ -72,7 +72,7 @@ class Projections::Builder {
     } else {
       for (std::size_t c = 0; c < masks_.size(); ++c) find_masks(position, c);
     }
-    Found found{.row = position.row, .is_full = is_full(invariant)};
+    Found found{.is_full = is_full(invariant)};
     if (is_product) {
       packed_.clear();
       independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), packed_);
@@ -99,7 +99,7 @@ class Projections::Builder {
   }
 
   Found project_by_rules(const RowPosition& position) {
-    Found found{.row = position.row};
+    Found found;
     grouping_.group(position, groups_);
     // A class whose post has left for good fits all actions of the others.
     const bool is_product = boxes_.is_product() && boxes_.fill(position, groups_) && !boxes_.has_gone();
@@ -329,10 +329,9 @@ void Projections::find_all(const Controller& controller, ThreadTeam& team, const
       for (RowPosition position(engine.grid(), range.begin); position.row < range.end;
            position.advance(engine.grid())) {
         const std::uint32_t number = number_[static_cast<std::size_t>(position.row)];
-        if (number == kNothing || of(position.row).row != position.row) continue;
+        if (number == kNothing || rows_[number - 1] != position.row) continue;
         const Found projected = builder.project(position);
         Store& store = stores_[static_cast<std::size_t>(worker)];
-        // But not the row: other threads read it.
         Found& found = found_[number - 1];
         found.is_full = projected.is_full;
         found.packed = store.keep(projected.packed);
@@ -369,10 +368,11 @@ void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equa
   });
   const auto has = [&](std::int64_t row) { return number_[static_cast<std::size_t>(row)] != kNothing; };
   for_each_with_first(tiles, classes_, run, has, [&](std::int64_t row, std::int64_t first) {
-    if (first == row) found_.push_back({.row = row});
+    if (first == row) rows_.push_back(row);
     number_[static_cast<std::size_t>(row)] =
-        first == row ? static_cast<std::uint32_t>(found_.size()) : number_[static_cast<std::size_t>(first)];
+        first == row ? static_cast<std::uint32_t>(rows_.size()) : number_[static_cast<std::size_t>(first)];
   });
+  found_ = ZeroedArray<Found>(rows_.size());
 }
 
 /// Whether projections of the row are needed.

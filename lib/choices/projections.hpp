@@ -109,9 +109,9 @@ class Projections {
   }
   /// The shift of the boxes of packed(). @returns whether boxes have to be moved
   bool find_shift(std::int64_t row, std::vector<std::int32_t>& shift) const {
-    if (of(row).row == row) return false;
-    equal_.tiles->find_shift(of(row).row, row, shift);
-    return true;
+    const std::int64_t first = rows_[number_[static_cast<std::size_t>(row)] - 1];
+    if (first != row) equal_.tiles->find_shift(first, row, shift);
+    return first != row;
   }
 
   /// Equal work of the operator of IND_C.
@@ -136,7 +136,6 @@ class Projections {
   };
   /// The projections of one row, and of all rows equal to it.
   struct Found {
-    std::int64_t row = 0;
     bool is_full = false;
     std::span<const Word> packed = {};     ///< of a product, see Projections::packed()
     std::span<const Word> masks = {};      ///< groups of class 0, then of class 1, ...
@@ -156,7 +155,8 @@ class Projections {
   Tiles::Numbers classes_;  ///< [tile] equal numbers where projections are the same
   ZeroedArray<std::uint32_t>
       number_;  ///< [row] 1 + its index in `found_`, or kNothing if K has no cell in the row
-  std::vector<Found> found_;
+  std::vector<std::int64_t> rows_;  ///< [index in `found_`] the first row of this kind
+  ZeroedArray<Found> found_;
   std::vector<Store> stores_;  ///< [worker] the words of `found_`
 };
 

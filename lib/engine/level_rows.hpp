@@ -140,6 +140,12 @@ class LevelRows {
       std::copy_n(lanes, stride_, levels_.data() + r * stride_);
       return;
     }
+    place(r, lanes, ready);
+    fill_placed(nullptr);
+  }
+  /// put_ready() of interned rows, but a content that is new is only given a slot: fill_placed() copies it.
+  /// Until then the row must not be read, and `lanes` must stay.
+  void place(std::int64_t r, const Level* lanes, const Ready& ready) {
     std::uint32_t target = ready.slot;
     if (target == Interner::kNone || !interner_.has(target, ready.content))
       target = find(ready.hash, lanes + margins_.before);
@@ -147,9 +153,22 @@ class LevelRows {
       interner_.hold(target);
     } else {
       target = interner_.add(ready.hash);
-      std::copy_n(lanes, stride_, levels_.data() + target * stride_);
+      if (placed_.empty()) first_placed_ = interner_.content(target);
+      placed_.push_back({target, lanes});
     }
     move_to(r, target);
+  }
+  /// Copies what was placed. @param team null: this thread alone
+  void fill_placed(ThreadTeam* team) {
+    for_each(team, std::ssize(placed_), kPlacedAtOnce, [&](ThreadTeam::Range range, int) {
+      for (auto k = static_cast<std::uint32_t>(range.begin); k < range.end; ++k) {
+        const auto [slot, lanes] = placed_[k];
+        // Unless all rows have left the slot since.
+        if (interner_.has(slot, first_placed_ + k))
+          std::copy_n(lanes, stride_, levels_.data() + slot * stride_);
+      }
+    });
+    placed_.clear();
   }
   /// Makes a row equal to another one. @returns whether it was not.
   bool copy_row(std::int64_t from, std::int64_t to) {
@@ -189,6 +208,14 @@ class LevelRows {
   }
 
  private:
+  /// Contents that one thread copies at a time.
+  static constexpr std::int64_t kPlacedAtOnce = 32;
+
+  struct Placed {
+    std::uint32_t slot;
+    const Level* lanes;
+  };
+
   /// Closes the lanes along the dimensions from k on that begin at `cells`.
   void close_from(Level* cells, std::size_t k) const {
     const RowDimension& dimension = shape_.dimensions[k];
@@ -244,6 +271,11 @@ class LevelRows {
   [[nodiscard]] const Level* at(std::int64_t slot) const {
     return levels_.data() + slot * stride_ + margins_.before;
   }
+  /// The cells of a slot, which may still stand where they were placed from.
+  [[nodiscard]] const Level* cells_of(std::uint32_t slot) const {
+    const std::uint32_t k = interner_.content(slot) - first_placed_;
+    return k < placed_.size() ? placed_[k].lanes + margins_.before : at(slot);
+  }
   void move_to(std::int64_t r, std::uint32_t target) {
     std::uint32_t& slot = slots_[static_cast<std::size_t>(r)];
     interner_.drop(slot);
@@ -252,7 +284,8 @@ class LevelRows {
   /// The slot with these cells, or kNone.
   [[nodiscard]] std::uint32_t find(std::uint64_t hash, const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
-    return interner_.find(hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, bytes) == 0; });
+    return interner_.find(hash,
+                          [&](std::uint32_t slot) { return std::memcmp(cells_of(slot), cells, bytes) == 0; });
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
@@ -279,12 +312,15 @@ class LevelRows {
   ZeroedArray<Level> levels_;
   std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not interned
   Interner interner_;
+  /// Contents that are in no slot yet, numbered from first_placed_ on.
+  std::vector<Placed> placed_;
+  std::uint32_t first_placed_ = 0;
   std::vector<Level> lanes_;  ///< the row being put, with its margins; only if rows are interned
 };
 
 /// Gives each row held the cells that `fill(row, cells)` writes, which may be whole blocks beyond the row and
-/// read that row of `levels`. All threads do the work; then one puts the rows that are interned, in ascending
-/// order.
+/// read that row of `levels`. All threads do the work but for the slots of interned rows: one finds those, in
+/// ascending order.
 template <class Level, class Fill>
 void put_rows(LevelRows<Level>& levels, ThreadTeam& team, const Fill& fill) {
   const std::int64_t width = levels.stride() + static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
@@ -311,7 +347,8 @@ void put_rows(LevelRows<Level>& levels, ThreadTeam& team, const Fill& fill) {
         }
       });
       for (std::int64_t k = 0; k < count; ++k)
-        levels.put_ready(begin + k, lanes_of(k), ready[static_cast<std::size_t>(k)]);
+        levels.place(begin + k, lanes_of(k), ready[static_cast<std::size_t>(k)]);
+      levels.fill_placed(&team);
     }
   }
 }

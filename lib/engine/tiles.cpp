@@ -236,31 +236,39 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
 }
 
 Numbers number_rows(const CellSet& set, const RowShare* share, ThreadTeam* team) {
-  constexpr std::int64_t kRows = 1 << 16, kGrain = 256;
+  constexpr std::int64_t kRows = 1 << 13, kGrain = 256;
+  struct Look {
+    std::uint64_t hash = 0;
+    std::uint32_t number = Interner::kNone;
+  };
   Interner interner;
   std::vector<std::int64_t> first;  // [number] the row that has come first
-  std::vector<std::uint64_t> hashes;
+  std::vector<Look> looks(static_cast<std::size_t>(std::min(kRows, set.rows())));
   Numbers result(static_cast<std::size_t>(set.rows()), 0);
-  const auto number_row = [&](std::int64_t r, std::uint64_t hash) {
-    std::uint32_t number = interner.find(
+  const auto number_of = [&](std::int64_t r, std::uint64_t hash) {
+    return interner.find(
         hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
-    if (number == Interner::kNone) {
-      number = interner.add(hash);
-      first.push_back(r);
-    }
-    result[static_cast<std::size_t>(r)] = number;
   };
   for (const RowShare::Range run : held_rows(share, set.rows())) {
     for (std::int64_t begin = run.begin; begin < run.end; begin += kRows) {
-      hashes.assign(static_cast<std::size_t>(std::min(kRows, run.end - begin)), 0);
-      for_each(team, std::ssize(hashes), kGrain, [&](ThreadTeam::Range range, int) {
+      const std::int64_t count = std::min(kRows, run.end - begin);
+      // Most rows are equal to one of those before: all threads look them up, and one adds the others.
+      for_each(team, count, kGrain, [&](ThreadTeam::Range range, int) {
         for (std::int64_t k = range.begin; k < range.end; ++k) {
-          std::uint64_t& hash = hashes[static_cast<std::size_t>(k)];
+          std::uint64_t hash = 0;
           for (const Word word : set.row(begin + k)) hash = mixed_hash(hash, word);
+          looks[static_cast<std::size_t>(k)] = {hash, number_of(begin + k, hash)};
         }
       });
-      for (std::size_t k = 0; k < hashes.size(); ++k)
-        number_row(begin + static_cast<std::int64_t>(k), hashes[k]);
+      for (std::int64_t k = 0; k < count; ++k) {
+        auto [hash, number] = looks[static_cast<std::size_t>(k)];
+        if (number == Interner::kNone) number = number_of(begin + k, hash);
+        if (number == Interner::kNone) {
+          number = interner.add(hash);
+          first.push_back(begin + k);
+        }
+        result[static_cast<std::size_t>(begin + k)] = number;
+      }
     }
   }
   return result;

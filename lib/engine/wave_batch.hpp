@@ -117,7 +117,7 @@ class WaveBatch {
   template <class Work>
   void share(std::int64_t count, std::int64_t few, const Work& work) {
     const std::int64_t tasks = kTasksOfThread * team_.size();
-    team_.for_each(count, count < few ? count : std::max<std::int64_t>(1, count / tasks),
+    team_.for_each(count, count < few ? count : std::max({std::int64_t{1}, few / 4, count / tasks}),
                    [&](ThreadTeam::Range range, int w) {
                      for (std::int64_t k = range.begin; k < range.end; ++k) work(k, worker(w));
                    });
@@ -266,27 +266,45 @@ class WaveBatch {
       ends_.push_back((ends_.empty() ? 0 : ends_.back()) + std::ssize(worker.changes));
     const std::int64_t count = ends_.back();
     counts_.changed += count;
-    share_writing(count, [&](std::int64_t k, Worker& by) {
+    const bool is_interned = levels_.is_interned();
+    share(count, is_interned ? kFewUnits : kFewRows, [&](std::int64_t k, Worker& by) {
       const auto owner = static_cast<std::size_t>(std::ranges::upper_bound(ends_, k) - ends_.begin());
       const Worker& from = workers_[owner];
-      commit(from, from.changes[static_cast<std::size_t>(k - ends_[owner] + std::ssize(from.changes))], by);
+      const Change& change =
+          from.changes[static_cast<std::size_t>(k - ends_[owner] + std::ssize(from.changes))];
+      note(from, change);
+      if (!is_interned) write(from, change, by);
     });
+    if (is_interned) {
+      for (Worker& worker : workers_) {
+        for (const Change& change : worker.changes) write(worker, change, worker);
+      }
+      levels_.fill_placed(&team_);
+    }
     for (Worker& worker : workers_) {
       worker.changes.clear();
       worker.storage.clear();
     }
   }
 
-  void commit(const Worker& from, const Change& change, Worker& by) {
-    const Level* const lanes = from.storage.data() + change.offset;
-    const auto note = [&](std::int64_t row) {
-      if (delta_) delta_->change(row, levels_.row(row), lanes + levels_.margins().before);
+  void note(const Worker& from, const Change& change) {
+    const Level* const after = from.storage.data() + change.offset + levels_.margins().before;
+    const auto note_row = [&](std::int64_t row) {
+      if (delta_) delta_->change(row, levels_.row(row), after);
       dirty_.mark(row);
     };
-    note(change.row);
-    levels_.put_ready(change.row, lanes, change.ready);
+    note_row(change.row);
+    for_each_permuted(change.row, note_row);
+  }
+
+  void write(const Worker& from, const Change& change, Worker& by) {
+    const Level* const lanes = from.storage.data() + change.offset;
+    if (levels_.is_interned()) {
+      levels_.place(change.row, lanes, change.ready);
+    } else {
+      levels_.put_ready(change.row, lanes, change.ready);
+    }
     for_each_permuted(change.row, [&](std::int64_t permuted) {
-      note(permuted);
       static_cast<void>(levels_.copy_row(change.row, permuted));
       ++by.counts.permuted;
     });

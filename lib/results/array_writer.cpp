@@ -48,8 +48,9 @@ double ArrayWriter::bytes(double longest, int threads) {
   const double chunks = std::ceil(longest / chunk);
   const double batch = std::min(chunks, static_cast<double>(kChunksPerThread) * threads);
   // If an array has few chunks, those of the next array go to other threads.
-  const double busy = std::min<double>(packers(threads), 4 * chunks);
-  const double known = std::min(chunks, static_cast<double>(KnownChunks::most(packers(threads))));
+  const int packing = packers(threads, static_cast<std::uint64_t>(chunks));
+  const double busy = std::min<double>(packing, 4 * chunks);
+  const double known = std::min(chunks, static_cast<double>(KnownChunks::most(packing)));
   return busy * (kCopies * chunk + kPieces * kPieceBytes + ChunkCodec::kBytes) +
          (known + kUsualPacking * batch) * chunk;
 }
@@ -58,10 +59,8 @@ ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, Ran
     : team_(team),
       driver_(driver),
       ranks_(ranks),
-      packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {
-  for (ChunkCodec& codec : ChunkCodec::make(packers(team.size())))
-    scratch_.push_back({.codec = std::move(codec), .raw = {}});
-}
+      known_(std::make_shared<KnownChunks>(packers(team.size(), 0))),
+      packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {}
 
 hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& path,
                                 const std::vector<hsize_t>& shape, const ResultArray& array) {
@@ -71,7 +70,7 @@ hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& pat
   RankChunks* const ranks = array.is_divided() ? ranks_ : nullptr;
   if (ranks != nullptr) ranks->pack(layout, array);
   if (layout.chunked()) {
-    write_chunks(dataset, path, layout, array);
+    write_chunks({dataset, path, layout}, array);
   } else {
     write_whole(dataset, path, layout.elements(), array, ranks);
   }
@@ -105,47 +104,67 @@ hdf5::Handle ArrayWriter::write_copy(const hdf5::Handle& file, const std::string
   return dataset;
 }
 
-void ArrayWriter::write_chunks(const hdf5::Handle& dataset, const std::string& path,
-                               const ChunkLayout& layout, const ResultArray& array) {
-  const std::uint64_t chunks = layout.chunk_count();
-  for (std::uint64_t first = 0; first < chunks; first += packed_.size()) {
-    const std::size_t count = std::min<std::uint64_t>(packed_.size(), chunks - first);
+void ArrayWriter::write_chunks(const Target& target, const ResultArray& array) {
+  const std::uint64_t chunks = target.layout.chunk_count();
+  const std::span<std::vector<std::byte>> all(packed_);
+  const std::size_t most = all.size() / 2;
+  Batch before;
+  for (std::uint64_t first = 0; first < chunks; first += most) {
+    const std::size_t half = first / most % 2 * most;
+    const Batch batch{first, all.subspan(half, std::min<std::uint64_t>(most, chunks - first))};
     if (ranks_ != nullptr && array.is_divided()) {
-      for (std::size_t i = 0; i < count; ++i) packed_[i] = ranks_->take(first + i);
+      for (std::size_t i = 0; i < batch.packed.size(); ++i) batch.packed[i] = ranks_->take(first + i);
+      write_batch(target, before);
     } else {
-      pack_batch(layout, array, first, count);
+      pack_batch(target, array, batch, before);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto offset = layout.segment(first + i).offset;
-      const std::vector<hsize_t> offset_of_chunk(offset.begin(), offset.end());
-      hdf5::check(H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, 0, offset_of_chunk.data(), packed_[i].size(),
-                                 packed_[i].data()),
-                  "write the dataset " + path);
-    }
-    driver_.check_written("write the dataset " + path);
+    before = batch;
   }
+  write_batch(target, before);
 }
 
-void ArrayWriter::pack_batch(const ChunkLayout& layout, const ResultArray& array, std::uint64_t first,
-                             std::size_t count) {
-  const std::size_t size = element_size(array.type);
+void ArrayWriter::write_batch(const Target& target, const Batch& batch) const {
+  const std::string what = "write the dataset " + target.path;
+  for (std::size_t i = 0; i < batch.packed.size(); ++i) {
+    const auto offset = target.layout.segment(batch.first + i).offset;
+    const std::vector<hsize_t> offset_of_chunk(offset.begin(), offset.end());
+    const std::vector<std::byte>& packed = batch.packed[i];
+    hdf5::check(H5Dwrite_chunk(target.dataset.get(), H5P_DEFAULT, 0, offset_of_chunk.data(), packed.size(),
+                               packed.data()),
+                what);
+  }
+  driver_.check_written(what);
+}
+
+void ArrayWriter::pack_batch(const Target& target, const ResultArray& array, const Batch& batch,
+                             const Batch& before) {
+  const int packing = packers(team_.size(), target.layout.chunk_count());
+  while (std::ssize(scratch_) < packing) scratch_.push_back({.codec = ChunkCodec(known_), .raw = {}});
   // Each packer takes the next chunk until there is none.
   std::atomic<std::size_t> next = 0;
-  team_.for_each(std::ssize(scratch_), 1, [&](ThreadTeam::Range range, int) {
+  bool is_before_written = false;  // known to this thread alone, worker 0
+  team_.for_each(packing, 1, [&](ThreadTeam::Range range, int worker) {
+    if (worker == 0 && !std::exchange(is_before_written, true)) write_batch(target, before);
     Scratch& scratch = scratch_[static_cast<std::size_t>(range.begin)];
-    for (std::size_t i = next++; i < count; i = next++) {
-      const ChunkLayout::Segment segment = layout.segment(first + i);
-      scratch.codec.begin(layout.chunk_elements() * size, size);
-      for (std::uint64_t done = 0; done < segment.count;) {
-        const std::uint64_t piece = std::min<std::uint64_t>(kPieceBytes / size, segment.count - done);
-        scratch.raw.resize(piece * size);
-        array.fill(segment.begin + done, piece, scratch.raw.data());
-        scratch.codec.put(scratch.raw);
-        done += piece;
-      }
-      scratch.codec.finish(packed_[i]);
-    }
+    for (std::size_t i = next++; i < batch.packed.size(); i = next++)
+      pack_chunk(target.layout, array, batch.first + i, scratch, batch.packed[i]);
   });
+  if (!is_before_written) write_batch(target, before);
+}
+
+void ArrayWriter::pack_chunk(const ChunkLayout& layout, const ResultArray& array, std::uint64_t chunk,
+                             Scratch& scratch, std::vector<std::byte>& packed) const {
+  const std::size_t size = element_size(array.type);
+  const ChunkLayout::Segment segment = layout.segment(chunk);
+  scratch.codec.begin(layout.chunk_elements() * size, size);
+  for (std::uint64_t done = 0; done < segment.count;) {
+    const std::uint64_t piece = std::min<std::uint64_t>(kPieceBytes / size, segment.count - done);
+    scratch.raw.resize(piece * size);
+    array.fill(segment.begin + done, piece, scratch.raw.data());
+    scratch.codec.put(scratch.raw);
+    done += piece;
+  }
+  scratch.codec.finish(packed);
 }
 
 }  // namespace coordreq

@@ -157,6 +157,38 @@ TEST(LevelRows, ThatWereMadeReadyArePutAsTheyWereWhateverWasPutSince) {
   }
 }
 
+TEST(LevelRows, PlacedTogetherAreThoseThatOnePutsOneByOne) {
+  // Rows change more than once before contents are copied, so that slots become free and are taken again.
+  constexpr std::int64_t kRows = 200;
+  const RowShape shape{{{3, 1, {2, 4}, {Outside::saturate, Outside::safe}}}};
+  EXPECT_TRUE(rc::check("placed rows", [&] {
+    ByteRows expected(kRows, shape, true), levels(kRows, shape, true);
+    ThreadTeam team(*rc::gen::inRange(1, 4));
+    const auto stride = static_cast<std::size_t>(levels.stride());
+    const auto width = stride + kLevelBlock;
+    for (int batch = 0; batch < 4; ++batch) {
+      const auto rows =
+          *rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, kRows));
+      std::vector<std::uint8_t> lanes(rows.size() * width, 0);
+      std::vector<ByteRows::Ready> ready;
+      const auto lanes_of = [&](std::size_t k) { return lanes.data() + k * width; };
+      const int contents = *rc::gen::inRange(1, 250);
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        lanes_of(k)[2] = static_cast<std::uint8_t>(*rc::gen::inRange(0, contents));
+        ready.push_back(levels.make_ready(lanes_of(k)));
+      }
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        levels.place(rows[k], lanes_of(k), ready[k]);
+        expected.put(rows[k], lanes_of(k) + 2);
+      }
+      levels.fill_placed(&team);
+      RC_ASSERT(levels.slots() == expected.slots());
+      for (std::int64_t r = 0; r < kRows; ++r)
+        RC_ASSERT(std::equal(levels.row(r) - 2, levels.row(r) + 7, expected.row(r) - 2));
+    }
+  }));
+}
+
 TEST(LevelRows, MarkCellsThatLeaveThroughUnsafeEnds) {
   const RowShape shape{{{3, 7, {1, 2}, {Outside::unsafe, Outside::safe}},
                         {2, 1, {2, 3}, {Outside::saturate, Outside::unsafe}}}};

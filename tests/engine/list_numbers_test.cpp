@@ -6,6 +6,7 @@
 
 #include "base/thread_team.hpp"
 #include "engine/shared_list_numbers.hpp"
+#include "engine/tiles.hpp"
 
 namespace coordreq {
 namespace {
@@ -64,6 +65,28 @@ TEST(SharedListNumbers, AreTheSameForEqualListsOnlyWhicheverThreadAsks) {
     EXPECT_EQ(noted.at(number), kTimes);
   }
   EXPECT_EQ(std::ssize(list_of), kLists);
+}
+
+TEST(NumberRows, NumbersAreTheSameForEqualRowsOnlyWhoeverLooks) {
+  // More rows than are looked up at once; some are equal to a row before them, some are not.
+  constexpr std::int64_t kRows = 20'000, kCells = 70;
+  CellSet set(kRows, kCells);
+  std::map<std::vector<Word>, std::uint32_t> expected;
+  for (std::int64_t r = 0; r < kRows; ++r) {
+    set.row(r)[0] = static_cast<Word>(r * r % 1009);
+    set.row(r)[1] = static_cast<Word>(r / 5000);
+    const std::vector<Word> words(set.row(r).begin(), set.row(r).end());
+    expected.emplace(words, static_cast<std::uint32_t>(expected.size()));
+  }
+  for (const int threads : {1, 4}) {
+    ThreadTeam team(threads);
+    const Tiles::Numbers numbers = number_rows(set, nullptr, &team);
+    ASSERT_EQ(std::ssize(numbers), kRows);
+    for (std::int64_t r = 0; r < kRows; ++r) {
+      const std::vector<Word> words(set.row(r).begin(), set.row(r).end());
+      ASSERT_EQ(numbers[static_cast<std::size_t>(r)], expected.at(words)) << r;
+    }
+  }
 }
 
 }  // namespace
