@@ -20,11 +20,9 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   const LevelBounds bounds{&context.safe, context.engine->grid().points() + 1};
   const std::optional<RowSymmetry> symmetry = context.symmetry(single_classes(context.abstraction->inputs));
   find_or_take_levels(work, *context.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
-    Invariance invariance =
-        find_invariance(*context.engine, *context.hull, context.safe, synthesis, watch, work.team,
-                        context.equal(symmetry ? &*symmetry : nullptr), context.terminal_or_null());
-    result.counts = invariance.counts;
-    return std::move(invariance.collision_time);
+    return find_collision_times(*context.engine, *context.hull, context.safe, synthesis, watch, work.team,
+                                result.counts, context.equal(symmetry ? &*symmetry : nullptr),
+                                context.terminal_or_null());
   });
   follow_from_collision_times(result, work.team);
   const Controller& controller =

@@ -1,15 +1,15 @@
 #include "answers/invariance/invariance.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "choices/joint_actions.hpp"
 #include "engine/find_levels.hpp"
 
 namespace coordreq {
-Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
-                           Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
-                           const EqualWork& equal, const CellSet* terminal) {
+
+LevelMap find_collision_times(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
+                              Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
+                              WaveCounts& counts, const EqualWork& equal, const CellSet* terminal) {
   // The finest classes give the fewest joint groups to try.
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const int workers = team.size();
@@ -20,11 +20,7 @@ Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const C
       .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, synthesis, false, workers); },
       .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, synthesis, false, workers); },
       .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, synthesis, false, workers); }};
-  WaveCounts counts;
-  Invariance result{.collision_time = find_levels(engine, hull, problem, watch, team, counts)};
-  result.counts = counts;
-  follow_from_collision_times(result, team);
-  return result;
+  return find_levels(engine, hull, problem, watch, team, counts);
 }
 
 void follow_from_collision_times(Invariance& invariance, ThreadTeam& team) {
@@ -33,6 +29,16 @@ void follow_from_collision_times(Invariance& invariance, ThreadTeam& team) {
   const LevelMap::Histogram levels = invariance.collision_time.histogram(team);
   invariance.iterations = static_cast<std::int64_t>(std::max<std::size_t>(levels.finite.size(), 1));
   invariance.cells = levels.top;
+}
+
+Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
+                           Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
+                           const EqualWork& equal, const CellSet* terminal) {
+  Invariance result;
+  result.collision_time =
+      find_collision_times(engine, hull, safe, synthesis, watch, team, result.counts, equal, terminal);
+  follow_from_collision_times(result, team);
+  return result;
 }
 
 }  // namespace coordreq

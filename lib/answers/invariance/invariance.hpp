@@ -21,16 +21,22 @@ struct Invariance {
   WaveCounts counts;
 };
 
-/// K: for `maximal` the greatest K with K = {x in K n S : some allowed u has empty != f(x,u) subset of K};
-/// for `given` the limit of SPRE_S^i(X), C(x) being all that `allow` permits (paper, Eq. (10) and Lemma 1).
-/// With a goal that ends the task all cells of G belong to every set.
+/// The collision times of K: for `maximal` the greatest K with K = {x in K n S : some allowed u has
+/// empty != f(x,u) subset of K}; for `given` the limit of SPRE_S^i(X), C(x) being all that `allow` permits
+/// (paper, Eq. (10) and Lemma 1). With a goal that ends the task all cells of G belong to every set.
 /// @param equal without `numbers` those of the tables are taken
 /// @param terminal G, a part of S; null: no goal ends the task
-[[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
-                                         Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
-                                         const EqualWork& equal = {}, const CellSet* terminal = nullptr);
+[[nodiscard]] LevelMap find_collision_times(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
+                                            Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
+                                            WaveCounts& counts, const EqualWork& equal = {},
+                                            const CellSet* terminal = nullptr);
 
 /// Fills in the members that follow from the collision times.
 void follow_from_collision_times(Invariance& invariance, ThreadTeam& team);
+
+/// Both of them.
+[[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
+                                         Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
+                                         const EqualWork& equal = {}, const CellSet* terminal = nullptr);
 
 }  // namespace coordreq
