@@ -88,34 +88,19 @@ template <class Level>
 void IndependentActions<Level>::lower_by_boxes(const RowPosition& position, PostReader<Level>& posts,
                                                Level* next, Workspace& work) const {
   const RowEngine& engine = grouping_.engine();
-  IndependentPosts::unpack(projections_.packed(position.row), boxes_, grouping_.size(), engine.row_words(),
-                           work.row);
+  IndependentPosts::unpack(projections_.packed(position.row), boxes_, grouping_.size(), work.row);
   work.is_moved = projections_.find_shift(position.row, work.shift);
   work.box.resize(engine.grid());
-  work.labels = nullptr;
+  work.labels.resize(posts.lanes());
   for (std::size_t p = 0; p < work.row.subsets.size(); ++p) {
     if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)
-      enter_page(work.row.pages[p / IndependentPosts::kLabelsOfPage], posts.lanes(), work);
+      IndependentPosts::put_labels(work.row.pages[p / IndependentPosts::kLabelsOfPage], work.labels);
     work.label = static_cast<Level>(p % IndependentPosts::kLabelsOfPage + 1);
     const IndependentPosts::Subset& subset = work.row.subsets[p];
-    if (work.labels != nullptr &&
+    if (!work.row.pages.empty() &&
         !is_open(next + subset.begin, static_cast<std::size_t>(subset.end - subset.begin)))
       continue;
     lower_by_class(subset, 0, posts, next, work);
-  }
-}
-
-/// Labels as wide as levels.
-template <class Level>
-void IndependentActions<Level>::enter_page(const std::uint8_t* labels, std::size_t lanes,
-                                           Workspace& work) const {
-  if constexpr (sizeof(Level) == 1) {
-    work.labels = labels;
-  } else {
-    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
-    work.lanes.assign(lanes, 0);
-    std::copy_n(labels, n, work.lanes.begin());
-    work.labels = work.lanes.data();
   }
 }
 
@@ -135,7 +120,7 @@ void IndependentActions<Level>::lower_by_class(const IndependentPosts::Subset& s
 template <class Level>
 void IndependentActions<Level>::lower_by_box(const IndependentPosts::Subset& subset, PostReader<Level>& posts,
                                              Level* next, Workspace& work) const {
-  if (work.labels == nullptr) {
+  if (work.row.pages.empty()) {
     const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
     if (!is_open(next, n)) return;
     const Level* pair[] = {next, posts.minimum(work.box)};
@@ -143,8 +128,8 @@ void IndependentActions<Level>::lower_by_box(const IndependentPosts::Subset& sub
     return;
   }
   if (!is_open(next + subset.begin, static_cast<std::size_t>(subset.end - subset.begin))) return;
-  posts.kernels().lower_at(posts.minimum(work.box, subset.begin, subset.end), work.labels + subset.begin,
-                           work.label, next + subset.begin,
+  posts.kernels().lower_at(posts.minimum(work.box, subset.begin, subset.end),
+                           work.labels.data() + subset.begin, work.label, next + subset.begin,
                            static_cast<std::size_t>(subset.end - subset.begin));
 }
 

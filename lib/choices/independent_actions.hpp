@@ -44,7 +44,7 @@ class IndependentActions final : public RowOperator<Level> {
     IndependentPosts::Row row;
     bool is_moved = false;  ///< packed boxes are moved, by the shift below
     std::vector<std::int32_t> shift;
-    const Level* labels = nullptr;  ///< of the page being read; null: there is one part, all of K
+    std::vector<Level> labels;  ///< of the page being read
     Level label = 0;
     std::vector<Word> reasonable;
     std::vector<Word>
@@ -69,7 +69,6 @@ class IndependentActions final : public RowOperator<Level> {
     return lost_levels_ == LostLevels::steps ||
            std::find(next, next + lanes, PostReader<Level>::kTop) != next + lanes;
   }
-  void enter_page(const std::uint8_t* labels, std::size_t lanes, Workspace& work) const;
   void lower_by_class(const IndependentPosts::Subset& subset, std::size_t c, PostReader<Level>& posts,
                       Level* next, Workspace& work) const;
   void lower_by_box(const IndependentPosts::Subset& subset, PostReader<Level>& posts, Level* next,

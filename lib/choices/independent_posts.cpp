@@ -3,6 +3,14 @@
 #include <algorithm>
 
 namespace coordreq {
+namespace {
+
+/// Words that so many bytes take.
+std::size_t words_of(std::size_t bytes) {
+  return (bytes + sizeof(Word) - 1) / sizeof(Word);
+}
+
+}  // namespace
 
 /// Finds the groups that can make a difference: reasonable in some cell, with a post inside the domain, and
 /// without another group whose post holds theirs and that is reasonable in all of their cells.
@@ -210,22 +218,39 @@ void IndependentPosts::pack_subsets(std::vector<Word>& packed) const {
   }
   const std::size_t pages = is_whole_ ? 0 : (joint_.size() + kLabelsOfPage - 1) / kLabelsOfPage;
   packed.push_back(pages);
-  const std::size_t words = lanes() / sizeof(Word) + kLevelBlock / sizeof(Word);
-  for (std::size_t page = 0; page < pages; ++page) {
-    const std::size_t at = packed.size();
-    packed.resize(at + words, 0);
-    auto* const labels = reinterpret_cast<std::uint8_t*>(packed.data() + at);
-    const auto before = static_cast<std::int32_t>(page * kLabelsOfPage);
-    for (std::size_t lane = 0; lane < labels_.size(); ++lane) {
-      const std::int32_t label = labels_[lane] - before;
-      if (label > 0 && label <= static_cast<std::int32_t>(kLabelsOfPage))
-        labels[lane] = static_cast<std::uint8_t>(label);
-    }
+  for (std::size_t page = 0; page < pages; ++page) pack_labels(labels_, page, packed);
+}
+
+void IndependentPosts::pack_labels(const std::vector<std::int32_t>& labels, std::size_t page,
+                                   std::vector<Word>& packed) {
+  constexpr std::size_t kLongest = UINT8_MAX;
+  const std::size_t before = page * kLabelsOfPage;
+  const auto label_of = [&](std::size_t lane) {
+    const auto label = static_cast<std::size_t>(labels[lane]);
+    return label > before && label - before <= kLabelsOfPage ? label - before : 0;
+  };
+  std::vector<std::uint8_t> runs;
+  for (std::size_t lane = 0; lane < labels.size();) {
+    const std::size_t begin = lane, most = std::min(labels.size(), begin + kLongest), label = label_of(lane);
+    while (lane < most && label_of(lane) == label) ++lane;
+    runs.insert(runs.end(), {static_cast<std::uint8_t>(label), static_cast<std::uint8_t>(lane - begin)});
   }
+  while (!runs.empty() && runs.end()[-2] == 0) runs.resize(runs.size() - 2);
+  packed.push_back(runs.size());
+  const std::size_t at = packed.size();
+  packed.resize(at + words_of(runs.size()), 0);
+  std::ranges::copy(runs, reinterpret_cast<std::uint8_t*>(packed.data() + at));
+}
+
+std::span<const std::uint8_t> IndependentPosts::page_at(std::span<const Word> packed, std::size_t& at) {
+  const std::size_t bytes = packed[at++];
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(packed.data() + at);
+  at += words_of(bytes);
+  return {first, bytes};
 }
 
 void IndependentPosts::unpack(std::span<const Word> packed, const RowBoxes& boxes, std::size_t classes,
-                              std::size_t words, Row& row) {
+                              Row& row) {
   std::size_t at = 0;
   row.lists.clear();
   row.subsets.clear();
@@ -244,11 +269,7 @@ void IndependentPosts::unpack(std::span<const Word> packed, const RowBoxes& boxe
                            static_cast<std::int64_t>(range >> 32U), packed.subspan(at, classes)});
     at += classes;
   }
-  const std::size_t page_words = words * kLevelBlock / sizeof(Word) + kLevelBlock / sizeof(Word);
-  for (Word left = packed[at++]; left > 0; --left) {
-    row.pages.push_back(reinterpret_cast<const std::uint8_t*>(packed.data() + at));
-    at += page_words;
-  }
+  for (Word left = packed[at++]; left > 0; --left) row.pages.push_back(page_at(packed, at));
 }
 
 }  // namespace coordreq

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -41,8 +42,8 @@ class IndependentPosts {
   struct Row {
     std::vector<Subset> subsets;  ///< [page * kLabelsOfPage + label - 1]
     std::vector<Boxes> lists;
-    /// [page] label of each lane; whole blocks, as LevelKernels ask. Empty: there is one subset, all of K.
-    std::vector<const std::uint8_t*> pages;
+    /// [page] its labels, for put_labels(). Empty: there is one subset, all of K.
+    std::vector<std::span<const std::uint8_t>> pages;
   };
 
   /// @param words of a row of bits
@@ -53,8 +54,21 @@ class IndependentPosts {
   /// @param invariant K on this row
   void pack(const RowBoxes& boxes, const RowGroups& groups, const std::vector<std::vector<Word>>& masks,
             ConstRow invariant, const UniformGrid& grid, std::vector<Word>& packed);
-  static void unpack(std::span<const Word> packed, const RowBoxes& boxes, std::size_t classes,
-                     std::size_t words, Row& row);
+  static void unpack(std::span<const Word> packed, const RowBoxes& boxes, std::size_t classes, Row& row);
+  /// Adds the number of bytes, and the bytes, of the runs of lanes with one label: labels and lengths in
+  /// turn.
+  /// @param labels [lane] from 1 on in all pages; 0: none
+  static void pack_labels(const std::vector<std::int32_t>& labels, std::size_t page,
+                          std::vector<Word>& packed);
+  /// The bytes that pack_labels() has added at `at`, which moves behind them.
+  [[nodiscard]] static std::span<const std::uint8_t> page_at(std::span<const Word> packed, std::size_t& at);
+  /// Writes the label of each lane of a row.
+  template <class Level>
+  static void put_labels(std::span<const std::uint8_t> page, std::vector<Level>& labels) {
+    auto lane = labels.begin();
+    for (std::size_t k = 0; k < page.size(); k += 2) lane = std::fill_n(lane, page[k + 1], Level{page[k]});
+    std::fill(lane, labels.end(), Level{0});
+  }
 
  private:
   /// The subsets of the row for one class.

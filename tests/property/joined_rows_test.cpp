@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "choices/independent_actions.hpp"
+#include "choices/independent_posts.hpp"
 #include "engine/join_rows.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
@@ -147,6 +148,34 @@ TEST(JoinedRows, GiveTheSameLevels) {
       expect_same_layers<std::uint16_t>(joined, p, team);
       expect_same_layers<std::uint32_t>(joined, p, team);
     }
+  }));
+}
+
+TEST(IndependentPosts, LabelsOfAllPagesAreThoseThatWerePacked) {
+  EXPECT_TRUE(rc::check("labels", [] {
+    constexpr std::size_t kPages = 3, kLanes = 900;
+    std::vector<std::int32_t> labels;
+    while (labels.size() < kLanes) {
+      const auto most = *rc::gen::element<std::size_t>(1, 3, 600);
+      const auto length = std::min(*rc::gen::inRange<std::size_t>(1, most + 1), kLanes - labels.size());
+      labels.insert(labels.end(), length, *rc::gen::element(0, 1, 7, 255, 256, 510, 511, 700));
+    }
+    std::vector<Word> packed(2, 0);
+    for (std::size_t page = 0; page < kPages; ++page) IndependentPosts::pack_labels(labels, page, packed);
+    std::vector<std::uint16_t> found(kLanes + 5, 9);
+    std::vector<int> all(found.size(), 0);
+    std::size_t at = 2;
+    for (int page = 0; page < static_cast<int>(kPages); ++page) {
+      IndependentPosts::put_labels(IndependentPosts::page_at(packed, at), found);
+      for (std::size_t lane = 0; lane < found.size(); ++lane) {
+        if (found[lane] == 0) continue;
+        RC_ASSERT(all[lane] == 0);
+        all[lane] = found[lane] + page * static_cast<int>(IndependentPosts::kLabelsOfPage);
+      }
+    }
+    RC_ASSERT(at == packed.size());
+    RC_ASSERT(std::equal(labels.begin(), labels.end(), all.begin()));
+    RC_ASSERT(std::all_of(all.begin() + kLanes, all.end(), [](int label) { return label == 0; }));
   }));
 }
 
