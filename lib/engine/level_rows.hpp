@@ -32,7 +32,7 @@ namespace coordreq {
 /// the rows of all of them, of which only those that it holds mean something and take memory (RowShare).
 ///
 /// Threads: any number may read while no thread writes. Different threads may write different rows; interned
-/// rows are written by one thread at a time. make_ready() reads.
+/// rows are written by one thread at a time, which may share fill_placed() with others. make_ready() reads.
 ///
 /// 1. A row that was written is *closed*: its margins and gaps follow from its cells. Interned rows are
 ///    closed from the start.

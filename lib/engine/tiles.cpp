@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "base/fast_paths.hpp"
 #include "engine/action_sources.hpp"
@@ -50,15 +51,20 @@ bool are_possible(const RowEngine& engine) {
 
 }  // namespace
 
-Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
+Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading, ThreadTeam* team)
     : engine_(&engine), hull_(&hull), leading_(leading) {
   rows_ = leading == engine.across() ? 1 : engine.grid().row_stride(leading - 1);
   size_ = engine.rows() / rows_;
   const RowShare::Range local = local_rows(engine.share(), engine.rows());
   local_tiles_ = {local.begin / rows_, local.end / rows_};
-  for (std::size_t t = 0; t < engine.tables(); ++t) {
+  std::vector<Numbers> choices(engine.tables());
+  for_each(team, std::ssize(choices), 1, [&](ThreadTeam::Range range, int) {
+    for (auto t = static_cast<std::size_t>(range.begin); t < static_cast<std::size_t>(range.end); ++t)
+      choices[t] = number_choices(t);
+  });
+  for (std::size_t t = 0; t < choices.size(); ++t) {
     const RowSlices& slices = engine.slices()[t];
-    add_source(slices.state_stride, slices.before, slices.input_combinations, number_choices(t));
+    add_source(slices.state_stride, slices.before, slices.input_combinations, std::move(choices[t]));
   }
   // Rows may be equal in the pairs that a file lists, and different in those that `allow` forbids.
   if (engine.allow() != nullptr) add_pairs(*engine.allow());
@@ -208,7 +214,7 @@ double Tiles::fraction_different(const Numbers& content, ThreadTeam* team) const
 
 std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, std::size_t leading) {
   if (!are_possible(engine) || leading == 0) return std::nullopt;
-  Tiles tiles(engine, hull, leading);
+  Tiles tiles(engine, hull, leading, nullptr);
   tiles.number_tables(nullptr);
   return tiles;
 }
@@ -223,7 +229,7 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
   // Units first: if as many are equal, fewer are looked up.
   for (const std::size_t leading : {engine.outer(), engine.across()}) {
     if (leading == 0 || (best && leading == engine.outer())) continue;
-    Tiles tiles(engine, hull, leading);
+    Tiles tiles(engine, hull, leading, team);
     if (tiles.local_tiles().end - tiles.local_tiles().begin < kFewRows) continue;
     if (local.begin % tiles.rows() != 0 || local.end % tiles.rows() != 0) continue;
     const double fraction = tiles.fraction_different(content, team);

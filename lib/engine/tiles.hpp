@@ -78,7 +78,7 @@ class Tiles {
                                 ThreadTeam* team = nullptr) const;
 
  private:
-  Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading);
+  Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading, ThreadTeam* team);
 
   /// A table of posts, or of pairs.
   struct Source {
