@@ -136,16 +136,16 @@ class LevelRows {
   /// put() in two steps, the second. @param lanes after make_ready(), which returned `ready`, and no
   /// renumber() since then
   void put_ready(std::int64_t r, const Level* lanes, const Ready& ready) {
+    place(r, lanes, ready);
+    if (is_interned()) fill_placed(nullptr);
+  }
+  /// put_ready(), but a content that is new to interned rows is only given a slot: fill_placed() copies it.
+  /// Until then the row must not be read, and `lanes` must stay.
+  void place(std::int64_t r, const Level* lanes, const Ready& ready) {
     if (!is_interned()) {
       std::copy_n(lanes, stride_, levels_.data() + r * stride_);
       return;
     }
-    place(r, lanes, ready);
-    fill_placed(nullptr);
-  }
-  /// put_ready() of interned rows, but a content that is new is only given a slot: fill_placed() copies it.
-  /// Until then the row must not be read, and `lanes` must stay.
-  void place(std::int64_t r, const Level* lanes, const Ready& ready) {
     std::uint32_t target = ready.slot;
     if (target == Interner::kNone || !interner_.has(target, ready.content))
       target = find(ready.hash, lanes + margins_.before);

@@ -298,12 +298,7 @@ class WaveBatch {
   }
 
   void write(const Worker& from, const Change& change, Worker& by) {
-    const Level* const lanes = from.storage.data() + change.offset;
-    if (levels_.is_interned()) {
-      levels_.place(change.row, lanes, change.ready);
-    } else {
-      levels_.put_ready(change.row, lanes, change.ready);
-    }
+    levels_.place(change.row, from.storage.data() + change.offset, change.ready);
     for_each_permuted(change.row, [&](std::int64_t permuted) {
       static_cast<void>(levels_.copy_row(change.row, permuted));
       ++by.counts.permuted;
